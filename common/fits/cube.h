@@ -1,0 +1,56 @@
+#pragma once
+// A cube in a FITS file: opened, judged by its header and the file's real size, read box by box.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/result.h"
+#include "common/volume/box.h"
+#include "common/volume/source.h"
+
+namespace shearwater::fits {
+
+struct OpenOptions {
+    std::optional<int> hdu;            // 0 is the primary; unset: the first that holds a cube
+    std::optional<std::int64_t> plane;  // index along a fourth axis longer than 1; unset: 0, with a note
+};
+
+struct CubeInfo {
+    std::string path;
+    int hdu = 0;
+    volume::Index3 n{};                  // the three axes longer than 1, in the file's order
+    std::array<int, 3> file_axes{};      // their FITS axis numbers, from 1
+    int bitpix = 0;                      // as stored; of the uncompressed image where it is compressed
+    std::int64_t plane = 0;              // chosen along the fourth axis
+    std::int64_t planes = 1;             // its length
+    std::string object, unit;            // printable
+    std::array<std::string, 3> axis_types;  // CTYPE, printable
+    // What was repaired, assumed or left out, a sentence each, for the person.
+    std::vector<std::string> notes;
+};
+
+// One cube. Move-only; owns the file handle. Safe in one thread at a time; open it again for another.
+class Cube final : public volume::VoxelSource {
+  public:
+    // Never allocates by what the header says before the file's size has confirmed it. Names are plain
+    // files: brackets and such do nothing.
+    static base::Result<Cube> open(const std::string& path, const OpenOptions& options = {});
+
+    Cube(Cube&&) noexcept;
+    Cube& operator=(Cube&&) noexcept;
+    ~Cube() override;
+
+    const CubeInfo& info() const;
+    base::Status read(const volume::Box& box, std::span<float> out) override;
+
+  private:
+    struct File;
+    explicit Cube(std::unique_ptr<File> file);
+    std::unique_ptr<File> file_;
+};
+
+}  // namespace shearwater::fits

@@ -1,0 +1,61 @@
+#pragma once
+// The camera of design section 3: x to the right, y up, row 0 of the picture on top.
+
+#include "common/base/result.h"
+#include "common/view/geometry.h"
+
+namespace shearwater::view {
+
+struct ImageSize {
+    int width = 512;
+    int height = 512;
+    bool operator==(const ImageSize&) const = default;
+};
+
+enum class Projection { perspective, parallel };
+
+struct Camera {
+    Vec3 eye{0, 0, 1};  // world
+    Vec3 target{0, 0, 0};
+    Vec3 up{0, 1, 0};
+    Projection projection = Projection::perspective;
+    double fov = 30;    // vertical field of view in degrees, perspective only
+    double height = 1;  // world height of the picture, parallel only
+
+    bool operator==(const Camera&) const = default;
+};
+
+// Angles and distance about a target: eye = target + distance * (sin az cos el, sin el, cos az cos el).
+struct Orbit {
+    double azimuth = 30;  // degrees
+    double elevation = 20;
+    double distance = 0;  // 0: far enough that the whole cube is seen
+    Vec3 target{0, 0, 0};
+};
+
+// The camera of an orbit. A height or distance of 0 becomes the design's default for the lattice:
+// distance = (diagonal / 2) / sin(fov / 2), height = diagonal.
+Camera camera_on(const Orbit& orbit, const Lattice& lattice, Projection projection = Projection::perspective,
+                 double fov = 30, double height = 0);
+
+// The rays of a picture in world space: pixel (x, y)'s centre lies at (x + 0.5, y + 0.5).
+// perspective: a ray starts at `origin` and goes along dir + px * dir_x + py * dir_y;
+// parallel: it goes along `dir` through origin + px * origin_x + py * origin_y, and begins nowhere.
+struct Rays {
+    Projection projection;
+    Vec3 origin, origin_x, origin_y;
+    Vec3 dir, dir_x, dir_y;
+
+    Vec3 origin_at(double px, double py) const { return origin + px * origin_x + py * origin_y; }
+    Vec3 direction_at(double px, double py) const { return dir + px * dir_x + py * dir_y; }
+};
+
+Rays rays_of(const Camera& camera, const ImageSize& size);
+// The same rays in voxel space (directions are not of unit length in either).
+Rays in_voxel_space(const Rays& world, const Lattice& lattice);
+
+// Refuses what is not finite, a fov outside (0, 180), a height or size out of range (at most 8192 pixels
+// a side and 2^25 in all), an eye on its target, and an up along the line of sight.
+base::Status validate(const Camera& camera, const ImageSize& size);
+
+}  // namespace shearwater::view

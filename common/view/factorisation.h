@@ -1,0 +1,90 @@
+#pragma once
+// The shear-warp factorisation of one view (DVR 2.2; Lacroute & Levoy 1994), computed once per frame at
+// the head and used by all.
+//
+//   slice k of a face            intermediate image                  picture
+//   (u, v) voxel coordinates --- pixel (i, j) of the face --- warp --- pixel (px, py)
+//
+// A face has a principal axis w; u = (w + 1) % 3 and v = (w + 2) % 3 are its in-plane axes. The ray of
+// intermediate pixel (i, j) meets slice k at
+//   perspective   u = eye_u + (origin_u + i * pitch_u) * (k - eye_w)     "slopes": the cube around the eye
+//   parallel      u = (origin_u + i * pitch_u) + slope_u * k             positions on slice 0
+// and the same for v with j. Both are  u = offset(k) + scale(k) * i.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "common/view/camera.h"
+#include "common/volume/box.h"
+
+namespace shearwater::view {
+
+// Half-open rectangle of intermediate or output pixels.
+struct Rect {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    bool operator==(const Rect&) const = default;
+    int width() const { return x1 - x0; }
+    int height() const { return y1 - y0; }
+    std::int64_t area() const { return empty() ? 0 : static_cast<std::int64_t>(width()) * height(); }
+    bool empty() const { return x1 <= x0 || y1 <= y0; }
+};
+Rect intersection(const Rect& a, const Rect& b);
+Rect bounding(const Rect& a, const Rect& b);  // an empty one counts for nothing
+
+enum class Quality { draft, normal, high };
+// Intermediate pixels per output pixel along a side: 0.5, 1, 1.5.
+double resolution(Quality quality);
+
+struct Face {
+    int axis = 2;   // principal axis w
+    int sign = 1;   // slices are visited by rising k (+1) or falling k (-1), front to back
+    int width = 0;  // of the intermediate image, pixels
+    int height = 0;
+    Vec2 origin{};  // of pixel (0, 0), along u and v
+    Vec2 pitch{};   // per pixel, along u and v
+    bool operator==(const Face&) const = default;
+
+    int u_axis() const { return (axis + 1) % 3; }
+    int v_axis() const { return (axis + 2) % 3; }
+};
+
+// Where slice k's voxels lie under a face's pixels: u = u_offset + u_scale * i, v likewise with j.
+struct SliceMap {
+    double u_offset, u_scale, v_offset, v_scale;
+};
+
+struct Factorisation {
+    static constexpr int max_faces = 6;
+    static constexpr int max_side = 16384;                    // pixels of a face's side
+    static constexpr std::int64_t max_area = std::int64_t{1} << 27;  // pixels of all faces
+
+    Projection projection = Projection::perspective;
+    Lattice lattice;
+    // Voxel space: the eye (perspective), or the direction that rays go (parallel).
+    Vec3 eye{};
+    Vec3 direction{};
+    std::vector<Face> faces;
+
+    bool operator==(const Factorisation&) const = default;
+
+    SliceMap slice_map(const Face& face, double k) const;
+    // World length of the ray of pixel (i, j) between two slices.
+    double step(const Face& face, double i, double j) const;
+};
+
+// The faces that the picture needs, each just large enough for its part of the picture and of the cube.
+// `quality` sets the pixels' pitch. The camera and size are valid.
+Factorisation factorise(const Camera& camera, const ImageSize& size, const Lattice& lattice, double resolution);
+
+// The pixels of a face that rays through the (closed) box can reach: its window (DVR 3.4).
+Rect window_of(const Factorisation& factorisation, const Face& face, const volume::Box& box);
+
+// Whether a peer's factorisation keeps the limits above and is finite throughout.
+base::Status validate(const Factorisation& factorisation);
+
+// Front-to-back order of boxes that cuts across one axis (or a tree of such cuts) made disjoint: indices
+// into `boxes`, the nearest first. One order serves every face.
+std::vector<int> visibility_order(const Factorisation& factorisation, const std::vector<volume::Box>& boxes);
+
+}  // namespace shearwater::view

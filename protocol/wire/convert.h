@@ -1,0 +1,55 @@
+#pragma once
+// Between the schema's values and ours. What comes from a peer is validated here, so that nothing else
+// has to: a Fault names the field.
+
+#include <optional>
+
+#include "common/image/image.h"
+#include "common/image/over.h"
+#include "common/view/camera.h"
+#include "common/view/factorisation.h"
+#include "common/view/transfer_function.h"
+#include "common/volume/box.h"
+#include "common/volume/histogram.h"
+#include "common/volume/mapping.h"
+#include "protocol/wire/header.h"
+
+namespace shearwater::wire {
+
+pb::Box to_wire(const volume::Box& box);
+pb::Rect to_wire(const view::Rect& rect);
+pb::Lattice to_wire(const view::Lattice& lattice);
+pb::Mapping to_wire(const volume::Mapping& mapping);
+pb::Camera to_wire(const view::Camera& camera);
+pb::TransferFunction to_wire(const view::TransferFunction& tf);
+pb::Factorisation to_wire(const view::Factorisation& factorisation);
+pb::HistogramReport to_wire(const volume::Histogram& histogram);
+pb::Quality to_wire(view::Quality quality);
+
+Parsed<volume::Box> box_from(const pb::Box& box);  // lo <= hi, indices within 2^40
+Parsed<view::Lattice> lattice_from(const pb::Lattice& lattice);
+Parsed<volume::Mapping> mapping_from(const pb::Mapping& mapping);
+Parsed<view::TransferFunction> transfer_function_from(const pb::TransferFunction& tf);
+Parsed<view::Factorisation> factorisation_from(const pb::Factorisation& factorisation);
+Parsed<volume::Histogram> histogram_from(const pb::HistogramReport& report);
+
+// A client's request, whole: camera and size are valid together.
+struct View {
+    std::uint64_t revision = 0;
+    view::Camera camera;
+    view::ImageSize size;
+    view::TransferFunction tf;
+    view::Quality quality = view::Quality::normal;
+    bool deflate = false;
+};
+pb::SetView to_wire(const View& view);
+Parsed<View> view_from(const pb::SetView& view);
+
+// Rendered windows and the message they travel in. `message` takes the pixels to 16 bits.
+Message windows_message(std::uint64_t frame, std::span<const image::Window> windows);
+// The windows of a message, viewing its payload: faces and rectangles are those of the factorisation,
+// each face at most once, and the payload holds exactly their pixels.
+Parsed<std::vector<image::WindowView16>> windows_from(const Message& message,
+                                                      const view::Factorisation& factorisation);
+
+}  // namespace shearwater::wire

@@ -1,0 +1,45 @@
+#pragma once
+// A message in memory: one of the schema's bodies and, for some, a raw payload.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "common/base/result.h"
+#include "protocol/wire/shearwater.pb.h"
+
+namespace shearwater::wire {
+
+// The order fixes the variant only; numbers on the wire are in header.cpp.
+using Body = std::variant<pb::Challenge, pb::Hello, pb::Welcome, pb::Goodbye, pb::Ping, pb::Pong,  //
+                          pb::Join, pb::Assign, pb::Report,                                        //
+                          pb::Adopt, pb::HistogramReport, pb::SetMapping, pb::NeedVoxels, pb::Voxels, pb::Render,
+                          pb::Cancel, pb::Windows,  //
+                          pb::CubeDescription, pb::TreeState, pb::SetView, pb::Frame, pb::FrameShown>;
+
+// Shared, never changed: a junction passes on what it received without a copy.
+using Payload = std::shared_ptr<const std::vector<std::byte>>;
+
+struct Message {
+    Body body;
+    Payload payload;  // null: none
+
+    std::size_t payload_size() const { return payload ? payload->size() : 0; }
+};
+
+template <class T>
+Message message(T body, std::vector<std::byte> payload = {}) {
+    Message m{std::move(body), nullptr};
+    if (!payload.empty()) {
+        m.payload = std::make_shared<const std::vector<std::byte>>(std::move(payload));
+    }
+    return m;
+}
+
+// The body's name as the schema spells it.
+std::string_view name(const Body& body);
+
+}  // namespace shearwater::wire

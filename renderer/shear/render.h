@@ -1,0 +1,31 @@
+#pragma once
+// One leaf's share of a frame: its bricks, sheared and composited into a window per face.
+
+#include <cstdint>
+#include <stop_token>
+#include <vector>
+
+#include "common/base/workers.h"
+#include "common/image/image.h"
+#include "common/view/factorisation.h"
+#include "common/view/transfer_function.h"
+#include "renderer/shear/brick_volume.h"
+
+namespace shearwater::shear {
+
+struct RenderStats {
+    std::uint64_t samples = 0;  // taken along all rays
+    std::uint64_t bricks_total = 0;
+    std::uint64_t bricks_empty = 0;     // no opacity under this transfer function
+    std::uint64_t bricks_rendered = 0;  // seen by at least one ray
+};
+
+// Renders the volume for every face, front to back with early termination. The factorisation's lattice
+// is the cube's. Samples are placed by global voxel index, so windows of leaves that share a
+// factorisation merge exactly. At most one window a face, none where the box projects to nothing.
+// Stops soon after `stop` is requested; what it then returns is of no use.
+std::vector<image::Window> render(const BrickVolume& volume, const view::Factorisation& factorisation,
+                                  const view::TransferFunction& tf, base::Workers& workers,
+                                  RenderStats* stats = nullptr, const std::stop_token& stop = {});
+
+}  // namespace shearwater::shear
