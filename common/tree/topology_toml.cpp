@@ -156,16 +156,7 @@ base::Status check_arity(const Topology& topology, std::string_view source) {
     return {};
 }
 
-}  // namespace
-
-base::Result<Topology> topology_from_toml(std::string_view text, std::string_view source) {
-    const toml::parse_result parsed = toml::parse(text);
-    if (!parsed) {
-        std::ostringstream where;
-        where << parsed.error().description() << " (line " << parsed.error().source().begin.line << ")";
-        return fault(source, where.str());
-    }
-    const toml::table& root = parsed.table();
+base::Result<Topology> read_topology(const toml::table& root, std::string_view source) {
     if (const auto key = unknown_key(root, {"tree", "node", "server", "security", "placement"})) {
         return fault(source, "unknown key '" + *key + "'");
     }
@@ -212,6 +203,18 @@ base::Result<Topology> topology_from_toml(std::string_view text, std::string_vie
         return fine.error();
     }
     return topology;
+}
+
+}  // namespace
+
+base::Result<Topology> topology_from_toml(std::string_view text, std::string_view source) {
+    try {
+        return read_topology(toml::parse(text), source);
+    } catch (const toml::parse_error& broken) {
+        std::ostringstream where;
+        where << broken.description() << " (line " << broken.source().begin.line << ")";
+        return fault(source, where.str());
+    }
 }
 
 }  // namespace shearwater::tree

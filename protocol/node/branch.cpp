@@ -1,0 +1,254 @@
+#include "protocol/node/branch.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/base/check.h"
+
+namespace shearwater::node {
+
+using wire::NetEffect;
+
+void Branch::configure(std::uint64_t epoch, std::vector<ChildSpec> specs, std::vector<NetEffect>& effects) {
+    std::vector<Child> children;
+    for (ChildSpec& spec : specs) {
+        children.push_back({.spec = spec, .link = {}, .histogram = {}});
+    }
+    const bool same =
+        epoch == epoch_ && std::ranges::equal(children, children_, {}, &Child::spec, &Child::spec);
+    if (same) {
+        return;
+    }
+    cancel_all(effects);
+    for (const Child& old : children_) {
+        if (old.link) {
+            effects.push_back(wire::CloseLink{*old.link, wire::pb::REASON_REPLACED, "the tree has changed"});
+        }
+    }
+    epoch_ = epoch;
+    children_ = std::move(children);
+    voxel_routes_.clear();
+}
+
+const Branch::Child* Branch::child_of(wire::LinkId link) const {
+    const auto found = std::ranges::find(children_, std::optional{link}, &Child::link);
+    return found == children_.end() ? nullptr : &*found;
+}
+
+std::size_t Branch::index_of(const Child& child) const {
+    return static_cast<std::size_t>(&child - children_.data());
+}
+
+int Branch::adopt(wire::LinkId link, const wire::pb::Adopt& adopt, std::vector<NetEffect>& effects) {
+    const auto found = std::ranges::find_if(
+        children_, [&](const Child& child) { return std::cmp_equal(child.spec.place, adopt.place()); });
+    if (adopt.epoch() != epoch_ || found == children_.end() || is_child(link)) {
+        effects.push_back(wire::CloseLink{link, wire::pb::REASON_NO_PLACE, "no such child is expected here"});
+        return -1;
+    }
+    if (found->link) {
+        const wire::LinkId old = *found->link;
+        link_down(old);
+        effects.push_back(
+            wire::CloseLink{old, wire::pb::REASON_REPLACED, "the child has come back on a new link"});
+    }
+    found->link = link;
+    return found->spec.place;
+}
+
+void Branch::begin(const view::Factorisation& factorisation, const wire::pb::Render& render, wire::Time now,
+                   std::vector<NetEffect>& effects) {
+    if (pending_.size() >= max_pending) {
+        const std::uint64_t oldest = pending_.begin()->first;
+        cancel(oldest, effects);
+    }
+    Pending pending{.factorisation = factorisation, .parts = {}, .missing = {}, .waiting = {}, .since = now};
+    const wire::Message message = wire::message(render);
+    for (std::size_t i = 0; i < children_.size(); ++i) {
+        pending.parts.push_back({.box = children_[i].spec.box, .windows = {}, .present = false});
+        if (children_[i].link) {
+            pending.waiting.insert(i);
+            effects.push_back(wire::Send{*children_[i].link, message});
+        } else {
+            give_up(pending, i);
+        }
+    }
+    pending_.insert_or_assign(render.frame(), std::move(pending));
+    finish(render.frame());
+}
+
+void Branch::cancel(std::uint64_t frame, std::vector<NetEffect>& effects) {
+    const auto found = pending_.find(frame);
+    if (found == pending_.end()) {
+        return;
+    }
+    wire::pb::Cancel cancel;
+    cancel.set_frame(frame);
+    for (const std::size_t index : found->second.waiting) {
+        if (const auto link = children_[index].link) {
+            effects.push_back(wire::Send{*link, wire::message(cancel)});
+        }
+    }
+    pending_.erase(found);
+}
+
+void Branch::cancel_all(std::vector<NetEffect>& effects) {
+    while (!pending_.empty()) {
+        const std::uint64_t frame = pending_.begin()->first;
+        cancel(frame, effects);
+    }
+}
+
+void Branch::give_up(Pending& pending, std::size_t index) const {
+    const ChildSpec& spec = children_[index].spec;
+    pending.waiting.erase(index);
+    pending.missing.push_back({spec.place, spec.box});
+}
+
+void Branch::finish(std::uint64_t frame) {
+    const auto found = pending_.find(frame);
+    if (found == pending_.end() || !found->second.waiting.empty()) {
+        return;
+    }
+    Pending& pending = found->second;
+    complete_.push_back({.frame = frame,
+                         .factorisation = std::move(pending.factorisation),
+                         .parts = std::move(pending.parts),
+                         .missing = std::move(pending.missing)});
+    pending_.erase(found);
+}
+
+std::vector<MergeJob> Branch::take_complete() {
+    return std::exchange(complete_, {});
+}
+
+void Branch::link_down(wire::LinkId link) {
+    const Child* const child = child_of(link);
+    if (child == nullptr) {
+        return;
+    }
+    const std::size_t index = index_of(*child);
+    children_[index].link.reset();
+    std::erase_if(voxel_routes_, [&](const auto& route) { return route.second == link; });
+    std::vector<std::uint64_t> touched;
+    for (auto& [frame, pending] : pending_) {
+        if (pending.waiting.contains(index)) {
+            give_up(pending, index);
+            touched.push_back(frame);
+        }
+    }
+    std::ranges::for_each(touched, [this](std::uint64_t frame) { finish(frame); });
+}
+
+void Branch::tick(wire::Time now) {
+    std::vector<std::uint64_t> late;
+    for (auto& [frame, pending] : pending_) {
+        if (now - pending.since > patience) {
+            while (!pending.waiting.empty()) {
+                give_up(pending, *pending.waiting.begin());
+            }
+            late.push_back(frame);
+        }
+    }
+    std::ranges::for_each(late, [this](std::uint64_t frame) { finish(frame); });
+}
+
+void Branch::fault(wire::LinkId link, const wire::Fault& fault, std::vector<NetEffect>& effects) {
+    link_down(link);
+    effects.push_back(wire::CloseLink{link, fault.reason, fault.text});
+}
+
+std::optional<wire::pb::NeedVoxels> Branch::receive(wire::LinkId link, const wire::Message& message,
+                                                    std::vector<NetEffect>& effects) {
+    const Child* const child = child_of(link);
+    base::check(child != nullptr, "a message was taken for a child's");
+    if (std::holds_alternative<wire::pb::Windows>(message.body)) {
+        on_windows(*child, message, effects);
+    } else if (const auto* report = std::get_if<wire::pb::HistogramReport>(&message.body)) {
+        on_histogram(index_of(*child), *report, effects);
+    } else if (const auto* need = std::get_if<wire::pb::NeedVoxels>(&message.body)) {
+        const auto box = wire::box_from(need->box());
+        if (!box || !child->spec.box.contains(*box)) {
+            fault(link, {wire::pb::REASON_INVALID, "voxels were asked for outside the child's box"}, effects);
+            return std::nullopt;
+        }
+        voxel_routes_.insert_or_assign(static_cast<int>(need->place()), link);
+        return *need;
+    } else {
+        fault(link,
+              {wire::pb::REASON_BAD_TYPE, "a child does not send " + std::string(wire::name(message.body))},
+              effects);
+    }
+    return std::nullopt;
+}
+
+void Branch::on_windows(const Child& child, const wire::Message& message, std::vector<NetEffect>& effects) {
+    const auto& body = std::get<wire::pb::Windows>(message.body);
+    const auto found = pending_.find(body.frame());
+    const std::size_t index = index_of(child);
+    if (found == pending_.end() || !found->second.waiting.contains(index)) {
+        return;  // cancelled, or given up before
+    }
+    Pending& pending = found->second;
+    const auto windows = wire::windows_from(message, pending.factorisation);
+    if (!windows) {
+        fault(*child.link, windows.error(), effects);
+        return;
+    }
+    for (const wire::pb::Missing& entry : body.missing()) {
+        const auto box = wire::box_from(entry.box());
+        if (!box) {
+            fault(*child.link, box.error(), effects);
+            return;
+        }
+        pending.missing.push_back({static_cast<int>(entry.place()), *box});
+    }
+    pending.waiting.erase(index);
+    pending.parts[index].windows = message;
+    pending.parts[index].present = true;
+    finish(body.frame());
+}
+
+void Branch::on_histogram(std::size_t index, const wire::pb::HistogramReport& report,
+                          std::vector<NetEffect>& effects) {
+    auto histogram = wire::histogram_from(report);
+    if (!histogram) {
+        fault(*children_[index].link, histogram.error(), effects);
+        return;
+    }
+    children_[index].histogram = *std::move(histogram);
+    histogram_news_ = true;
+}
+
+std::optional<volume::Histogram> Branch::histogram() const {
+    volume::Histogram sum;
+    for (const Child& child : children_) {
+        if (!child.histogram) {
+            return std::nullopt;
+        }
+        sum.merge(*child.histogram);
+    }
+    return sum;
+}
+
+bool Branch::take_histogram_news() {
+    return std::exchange(histogram_news_, false);
+}
+
+void Branch::tell_children(const wire::Message& message, std::vector<NetEffect>& effects) const {
+    for (const Child& child : children_) {
+        if (child.link) {
+            effects.push_back(wire::Send{*child.link, message});
+        }
+    }
+}
+
+void Branch::deliver_voxels(const wire::Message& voxels, std::vector<NetEffect>& effects) {
+    const auto place = static_cast<int>(std::get<wire::pb::Voxels>(voxels.body).place());
+    const auto route = voxel_routes_.find(place);
+    if (route != voxel_routes_.end()) {
+        effects.push_back(wire::Send{route->second, voxels});
+    }
+}
+
+}  // namespace shearwater::node

@@ -1,0 +1,96 @@
+#pragma once
+// What every node with children does, the server as much as a compositor: it knows its children's links,
+// passes requests down, gathers their windows frame by frame, their histograms, and routes voxels.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "common/view/factorisation.h"
+#include "common/volume/histogram.h"
+#include "protocol/node/merge.h"
+#include "protocol/wire/events.h"
+
+namespace shearwater::node {
+
+class Branch {
+  public:
+    static constexpr std::size_t max_pending = 256;       // frames; more are cut short, oldest first
+    static constexpr std::chrono::seconds patience{120};  // for a child's windows of one frame
+
+    struct ChildSpec {
+        int place;
+        volume::Box box;
+        bool operator==(const ChildSpec&) const = default;
+    };
+
+    // Replaces the children. Links of places that stay are kept, the others closed.
+    void configure(std::uint64_t epoch, std::vector<ChildSpec> children,
+                   std::vector<wire::NetEffect>& effects);
+
+    // An Adopt that fits: the link is the child's from now on, an older one is closed. Otherwise the link
+    // is closed with a reason. Returns the child's place, or -1.
+    int adopt(wire::LinkId link, const wire::pb::Adopt& adopt, std::vector<wire::NetEffect>& effects);
+    bool is_child(wire::LinkId link) const { return child_of(link) != nullptr; }
+
+    // Passes a frame down. What has no link is missing from the start.
+    void begin(const view::Factorisation& factorisation, const wire::pb::Render& render, wire::Time now,
+               std::vector<wire::NetEffect>& effects);
+    void cancel(std::uint64_t frame, std::vector<wire::NetEffect>& effects);
+    void cancel_all(std::vector<wire::NetEffect>& effects);
+    bool pending(std::uint64_t frame) const { return pending_.contains(frame); }
+
+    // A child's Windows, HistogramReport, NeedVoxels. Returns a request for voxels that must go on up
+    // (or be served here), if that is what it was. A faulty message closes the child's link.
+    std::optional<wire::pb::NeedVoxels> receive(wire::LinkId link, const wire::Message& message,
+                                                std::vector<wire::NetEffect>& effects);
+    // Forgets the link; its child's share of pending frames is missing.
+    void link_down(wire::LinkId link);
+    void tick(wire::Time now);
+
+    // Frames for which every child has answered or is missing, in the order they became so.
+    std::vector<MergeJob> take_complete();
+
+    // The sum over all children, once each has reported.
+    std::optional<volume::Histogram> histogram() const;
+    // Whether the sum changed since this was last asked.
+    bool take_histogram_news();
+
+    // Passes a message down to every child, or voxels to the child that asked for them.
+    void tell_children(const wire::Message& message, std::vector<wire::NetEffect>& effects) const;
+    void deliver_voxels(const wire::Message& voxels, std::vector<wire::NetEffect>& effects);
+
+  private:
+    struct Child {
+        ChildSpec spec;
+        std::optional<wire::LinkId> link;
+        std::optional<volume::Histogram> histogram;
+    };
+    struct Pending {
+        view::Factorisation factorisation;
+        std::vector<MergeJob::Part> parts;  // one a child
+        std::vector<Missing> missing;
+        std::set<std::size_t> waiting;  // indices of children
+        wire::Time since;
+    };
+
+    const Child* child_of(wire::LinkId link) const;
+    std::size_t index_of(const Child& child) const;
+    void fault(wire::LinkId link, const wire::Fault& fault, std::vector<wire::NetEffect>& effects);
+    void on_windows(const Child& child, const wire::Message& message, std::vector<wire::NetEffect>& effects);
+    void on_histogram(std::size_t index, const wire::pb::HistogramReport& report,
+                      std::vector<wire::NetEffect>& effects);
+    void give_up(Pending& pending, std::size_t index) const;
+    void finish(std::uint64_t frame);
+
+    std::uint64_t epoch_ = 0;
+    std::vector<Child> children_;
+    std::map<std::uint64_t, Pending> pending_;
+    std::vector<MergeJob> complete_;
+    std::map<int, wire::LinkId> voxel_routes_;  // by the asking renderer's place
+    bool histogram_news_ = false;
+};
+
+}  // namespace shearwater::node
