@@ -6,15 +6,24 @@ namespace shearwater::base {
 
 std::string_view name(Code code) {
     switch (code) {
-        case Code::invalid_argument: return "invalid argument";
-        case Code::not_found: return "not found";
-        case Code::unsupported: return "unsupported";
-        case Code::corrupt: return "corrupt";
-        case Code::too_large: return "too large";
-        case Code::io: return "input/output";
-        case Code::refused: return "refused";
-        case Code::timed_out: return "timed out";
-        case Code::cancelled: return "cancelled";
+        case Code::invalid_argument:
+            return "invalid argument";
+        case Code::not_found:
+            return "not found";
+        case Code::unsupported:
+            return "unsupported";
+        case Code::corrupt:
+            return "corrupt";
+        case Code::too_large:
+            return "too large";
+        case Code::io:
+            return "input/output";
+        case Code::refused:
+            return "refused";
+        case Code::timed_out:
+            return "timed out";
+        case Code::cancelled:
+            return "cancelled";
     }
     return "unknown";
 }

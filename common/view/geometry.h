@@ -24,6 +24,7 @@ struct Lattice {
     // The same for directions, which no origin moves.
     Vec3 voxel_direction(const Vec3& world) const { return world / spacing; }
     double diagonal() const;  // |spacing * (n - 1)|
+    bool operator==(const Lattice&) const = default;
 };
 
 }  // namespace shearwater::view

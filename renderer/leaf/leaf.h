@@ -1,0 +1,157 @@
+#pragma once
+// The renderer daemon as a pure state machine: events of the network and of its own jobs in, effects out.
+//
+//   assigned -> counting -> waiting (for the limits) -> loading -> ready
+//
+// With the limits already known, counting and waiting are left out. Rendering is one job at a time, in
+// the order asked for.
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/base/result.h"
+#include "common/view/factorisation.h"
+#include "common/view/transfer_function.h"
+#include "common/volume/histogram.h"
+#include "common/volume/mapping.h"
+#include "protocol/node/member.h"
+#include "protocol/wire/events.h"
+
+namespace shearwater::leaf {
+
+// What the leaf holds: which voxels of which cube.
+struct Share {
+    std::string path;
+    int hdu = 0;
+    std::int64_t plane = 0;
+    view::Lattice lattice;
+    volume::Box box;
+    int place = 0;
+};
+
+// ---- jobs the daemon carries out away from the network's thread, and what comes of them ----
+// A job has a number; what a cancelled job still says is ignored.
+using Job = std::uint64_t;
+
+struct Count {
+    Job job;
+    Share share;
+};
+struct Load {
+    Job job;
+    Share share;
+    volume::Mapping mapping;
+};
+struct Draw {
+    Job job;
+    std::uint64_t frame;
+    view::Factorisation factorisation;
+    view::TransferFunction tf;
+};
+struct Stop {  // whatever of this job still runs
+    Job job;
+};
+struct HandVoxels {  // an answer to a VoxelsWanted
+    Job job;
+    wire::Message voxels;
+};
+using Effect = std::variant<Count, Load, Draw, Stop, HandVoxels>;
+
+struct Advanced {
+    Job job;
+    double fraction;
+};
+struct Counted {
+    Job job;
+    base::Result<volume::Histogram> histogram;
+};
+struct Loaded {
+    Job job;
+    base::Status status;
+};
+struct Drawn {
+    Job job;
+    wire::Message windows;  // pb::Windows
+};
+// A job that cannot see the cube's file asks for a part of it over the tree, one at a time.
+struct VoxelsWanted {
+    Job job;
+    volume::Box box;
+};
+struct Memory {
+    std::uint64_t resident;
+    std::uint64_t peak;
+};
+using JobEvent = std::variant<Advanced, Counted, Loaded, Drawn, VoxelsWanted, Memory>;
+
+struct Effects {
+    std::vector<wire::NetEffect> net;
+    std::vector<Effect> jobs;
+};
+
+class Leaf {
+  public:
+    static constexpr std::size_t max_waiting = 64;  // frames; the oldest beyond are dropped
+
+    explicit Leaf(node::MemberOptions options) : member_(std::move(options)) {}
+
+    Effects start();
+    Effects handle(const wire::NetEvent& event, wire::Time now);
+    Effects handle(JobEvent event, wire::Time now);
+
+    wire::pb::Phase phase() const { return phase_; }
+    const std::string& error() const { return error_; }
+    const std::string& refusal() const { return member_.refusal(); }
+
+  private:
+    struct Waiting {
+        std::uint64_t frame;
+        view::Factorisation factorisation;
+        view::TransferFunction tf;
+    };
+
+    void on_assigned(Effects& effects);
+    void on_parent_up(Effects& effects);
+    void on_parent_down(Effects& effects);
+    void on_parent_message(const wire::Received& received, Effects& effects);
+    void on_render(wire::LinkId link, const wire::pb::Render& render, Effects& effects);
+    void on_cancel(std::uint64_t frame, Effects& effects);
+    void on_mapping(wire::LinkId link, const wire::pb::Mapping& mapping, Effects& effects);
+
+    void advance(Effects& effects);  // begins whatever the state calls for
+    void begin_count(Effects& effects);
+    void begin_load(Effects& effects);
+    void stop_loading(Effects& effects);
+    void draw_next(Effects& effects);
+    void send_absent(std::uint64_t frame, Effects& effects) const;
+    void send_histogram(Effects& effects);
+    void ask_for_voxels(Effects& effects) const;
+    void enter(wire::pb::Phase phase, Effects& effects);
+    void fail(const base::Error& error, Effects& effects);
+    void report(Effects& effects) const;
+
+    node::Member member_;
+    std::optional<Share> share_;
+    std::optional<wire::pb::Assign> work_;           // what share_ was made from
+    std::optional<volume::Mapping> mapping_;         // wanted
+    std::optional<volume::Mapping> loaded_mapping_;  // that the bricks are made with
+    std::optional<volume::Histogram> histogram_;
+    wire::pb::Phase phase_ = wire::pb::PHASE_JOINED;
+    double fraction_ = 0;
+    std::string error_;
+    Memory memory_{};
+    Job last_job_ = 0;
+    Job load_job_ = 0;  // counting or loading; 0: none
+    Job draw_job_ = 0;
+    std::uint64_t drawing_ = 0;  // the frame of draw_job_
+    std::deque<Waiting> waiting_;
+    std::optional<VoxelsWanted> wanted_;
+    std::uint64_t request_ = 0;  // of wanted_
+    wire::Time last_report_{};
+};
+
+}  // namespace shearwater::leaf
