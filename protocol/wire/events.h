@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "protocol/wire/message.h"
@@ -21,7 +22,9 @@ struct Address {
     std::uint16_t port = 0;
     bool operator==(const Address&) const = default;
 };
-std::string to_string(const Address& address);
+std::string to_string(const Address& address);  // "host:port", "[::1]:port"
+// "host", "host:port", "[::1]", "[::1]:port" or "::1"; the default port where none is given.
+base::Result<Address> parse_address(std::string_view text, std::uint16_t default_port);
 
 // Time as the machines see it: it is handed in.
 using Time = std::chrono::steady_clock::time_point;

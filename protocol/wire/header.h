@@ -21,6 +21,9 @@ namespace shearwater::wire {
 constexpr std::size_t header_bytes = 20;
 constexpr std::uint16_t protocol_version = 1;
 constexpr std::uint16_t oldest_version = 1;
+// Challenge, Hello, Welcome and the goodbyes before a Welcome keep the form of this version for ever, so that
+// any two versions can find out what both speak.
+constexpr std::uint16_t handshake_version = 1;
 
 struct Limit {
     std::uint32_t body;
@@ -51,6 +54,6 @@ Parsed<Header> parse_header(std::span<const std::byte, header_bytes> bytes);
 Parsed<Body> parse_body(const Header& header, std::span<const std::byte> bytes);
 
 // Header and body as bytes; the payload follows as it is. A message of ours over its limit fails a check.
-std::vector<std::byte> encode_head(const Message& message);
+std::vector<std::byte> encode_head(const Message& message, std::uint16_t version = protocol_version);
 
 }  // namespace shearwater::wire

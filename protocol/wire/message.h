@@ -16,8 +16,8 @@ namespace shearwater::wire {
 // The order fixes the variant only; numbers on the wire are in header.cpp.
 using Body = std::variant<pb::Challenge, pb::Hello, pb::Welcome, pb::Goodbye, pb::Ping, pb::Pong,  //
                           pb::Join, pb::Assign, pb::Report,                                        //
-                          pb::Adopt, pb::HistogramReport, pb::SetMapping, pb::NeedVoxels, pb::Voxels, pb::Render,
-                          pb::Cancel, pb::Windows,  //
+                          pb::Adopt, pb::HistogramReport, pb::SetMapping, pb::NeedVoxels, pb::Voxels,
+                          pb::Render, pb::Cancel, pb::Windows,  //
                           pb::CubeDescription, pb::TreeState, pb::SetView, pb::Frame, pb::FrameShown>;
 
 // Shared, never changed: a junction passes on what it received without a copy.
@@ -41,5 +41,8 @@ Message message(T body, std::vector<std::byte> payload = {}) {
 
 // The body's name as the schema spells it.
 std::string_view name(const Body& body);
+
+// Why a link ended, in words for people: "the peer does not know the secret".
+std::string_view text_of(pb::Reason reason);
 
 }  // namespace shearwater::wire

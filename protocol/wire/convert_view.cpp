@@ -1,0 +1,300 @@
+// Cameras, transfer functions, factorisations and a client's request made of them.
+
+#include "protocol/wire/convert.h"
+#include "protocol/wire/convert_fields.h"
+
+namespace shearwater::wire {
+namespace {
+
+pb::Projection to_wire(view::Projection projection) {
+    return projection == view::Projection::parallel ? pb::PARALLEL : pb::PERSPECTIVE;
+}
+
+Parsed<view::Projection> projection_from(pb::Projection projection) {
+    switch (projection) {
+        case pb::PERSPECTIVE:
+            return view::Projection::perspective;
+        case pb::PARALLEL:
+            return view::Projection::parallel;
+        default:
+            return invalid("projection: unknown");
+    }
+}
+
+Parsed<view::Quality> quality_from(pb::Quality quality) {
+    switch (quality) {
+        case pb::QUALITY_NORMAL:
+            return view::Quality::normal;
+        case pb::QUALITY_DRAFT:
+            return view::Quality::draft;
+        case pb::QUALITY_HIGH:
+            return view::Quality::high;
+        default:
+            return invalid("view.quality: unknown");
+    }
+}
+
+// Finite is all that is asked of it here: what else a camera needs depends on the picture's size.
+Parsed<view::Camera> camera_from(const pb::Camera& camera) {
+    const auto projection = projection_from(camera.projection());
+    if (!projection) {
+        return projection.error();
+    }
+    const view::Camera from{.eye = vec3_from(camera.eye()),
+                            .target = vec3_from(camera.target()),
+                            .up = vec3_from(camera.up()),
+                            .projection = *projection,
+                            .fov = camera.fov(),
+                            .height = camera.height()};
+    if (!finite(from.eye) || !finite(from.target) || !finite(from.up) || !std::isfinite(from.fov) ||
+        !std::isfinite(from.height)) {
+        return invalid("camera: finite numbers are wanted");
+    }
+    return from;
+}
+
+void set(pb::Colour& to, const view::Rgb& from) {
+    to.set_r(from.r);
+    to.set_g(from.g);
+    to.set_b(from.b);
+}
+view::Rgb colour_from(const pb::Colour& from) {
+    return {from.r(), from.g(), from.b()};
+}
+
+void set(pb::OpacityPin& to, const view::Ramp& ramp) {
+    to.mutable_ramp()->set_x0(ramp.x0);
+    to.mutable_ramp()->set_a0(ramp.a0);
+    to.mutable_ramp()->set_x1(ramp.x1);
+    to.mutable_ramp()->set_a1(ramp.a1);
+}
+void set(pb::OpacityPin& to, const view::Hat& hat) {
+    to.mutable_hat()->set_centre(hat.centre);
+    to.mutable_hat()->set_top(hat.top);
+    to.mutable_hat()->set_base(hat.base);
+    to.mutable_hat()->set_height(hat.height);
+}
+void set(pb::OpacityPin& to, const view::Flat& flat) {
+    to.mutable_flat()->set_height(flat.height);
+}
+void set(pb::OpacityPin& to, const view::Blank& blank) {
+    to.mutable_blank()->set_lo(blank.lo);
+    to.mutable_blank()->set_hi(blank.hi);
+}
+
+Parsed<view::OpacityPin> opacity_pin_from(const pb::OpacityPin& pin) {
+    switch (pin.pin_case()) {
+        case pb::OpacityPin::kRamp:
+            return view::Ramp{pin.ramp().x0(), pin.ramp().a0(), pin.ramp().x1(), pin.ramp().a1()};
+        case pb::OpacityPin::kHat:
+            return view::Hat{pin.hat().centre(), pin.hat().top(), pin.hat().base(), pin.hat().height()};
+        case pb::OpacityPin::kFlat:
+            return view::Flat{pin.flat().height()};
+        case pb::OpacityPin::kBlank:
+            return view::Blank{pin.blank().lo(), pin.blank().hi()};
+        case pb::OpacityPin::PIN_NOT_SET:
+            break;
+    }
+    return invalid("transfer_function.opacity_pins: a pin of an unknown kind");
+}
+
+pb::Face to_wire(const view::Face& face) {
+    pb::Face to;
+    to.set_axis(static_cast<std::uint32_t>(face.axis));
+    to.set_sign(face.sign);
+    to.set_width(static_cast<std::uint32_t>(face.width));
+    to.set_height(static_cast<std::uint32_t>(face.height));
+    to.set_origin_u(face.origin.x);
+    to.set_origin_v(face.origin.y);
+    to.set_pitch_u(face.pitch.x);
+    to.set_pitch_v(face.pitch.y);
+    return to;
+}
+
+Parsed<view::Face> face_from(const pb::Face& face) {
+    constexpr auto max_side = static_cast<std::uint32_t>(view::Factorisation::max_side);
+    if (face.axis() > 2) {
+        return invalid("face.axis: 0, 1 or 2 is wanted");
+    }
+    if (face.sign() != 1 && face.sign() != -1) {
+        return invalid("face.sign: 1 or -1 is wanted");
+    }
+    if (face.width() == 0 || face.height() == 0 || face.width() > max_side || face.height() > max_side) {
+        return invalid("face: width and height of 1 to " + std::to_string(max_side) + " are wanted");
+    }
+    if (!std::isfinite(face.origin_u()) || !std::isfinite(face.origin_v()) ||
+        !std::isfinite(face.pitch_u()) || !std::isfinite(face.pitch_v())) {
+        return invalid("face: a finite origin and pitch are wanted");
+    }
+    return view::Face{.axis = static_cast<int>(face.axis()),
+                      .sign = face.sign(),
+                      .width = static_cast<int>(face.width()),
+                      .height = static_cast<int>(face.height()),
+                      .origin = {face.origin_u(), face.origin_v()},
+                      .pitch = {face.pitch_u(), face.pitch_v()}};
+}
+
+Parsed<std::vector<view::Face>> faces_from(const pb::Factorisation& factorisation) {
+    if (factorisation.faces_size() > view::Factorisation::max_faces) {
+        return invalid("factorisation.faces: more than six");
+    }
+    std::vector<view::Face> faces;
+    std::int64_t area = 0;
+    for (const pb::Face& face : factorisation.faces()) {
+        const auto from = face_from(face);
+        if (!from) {
+            return from.error();
+        }
+        area += std::int64_t{from->width} * from->height;
+        faces.push_back(*from);
+    }
+    if (area > view::Factorisation::max_area) {
+        return invalid("factorisation.faces: too many pixels in all");
+    }
+    return faces;
+}
+
+}  // namespace
+
+pb::Quality to_wire(view::Quality quality) {
+    switch (quality) {
+        case view::Quality::draft:
+            return pb::QUALITY_DRAFT;
+        case view::Quality::high:
+            return pb::QUALITY_HIGH;
+        case view::Quality::normal:
+            break;
+    }
+    return pb::QUALITY_NORMAL;
+}
+
+pb::Camera to_wire(const view::Camera& camera) {
+    pb::Camera to;
+    set(*to.mutable_eye(), camera.eye);
+    set(*to.mutable_target(), camera.target);
+    set(*to.mutable_up(), camera.up);
+    to.set_projection(to_wire(camera.projection));
+    to.set_fov(camera.fov);
+    to.set_height(camera.height);
+    return to;
+}
+
+pb::TransferFunction to_wire(const view::TransferFunction& tf) {
+    pb::TransferFunction to;
+    for (const view::OpacityPin& pin : tf.opacity_pins) {
+        std::visit([&](const auto& kind) { set(*to.add_opacity_pins(), kind); }, pin);
+    }
+    for (const view::ColourPin& pin : tf.colour_pins) {
+        pb::ColourPin& colour_pin = *to.add_colour_pins();
+        colour_pin.set_at(pin.at);
+        set(*colour_pin.mutable_colour(), pin.rgb);
+    }
+    set(*to.mutable_background(), tf.background);
+    return to;
+}
+
+Parsed<view::TransferFunction> transfer_function_from(const pb::TransferFunction& tf) {
+    constexpr auto max_pins = static_cast<int>(view::TransferFunction::max_pins);
+    if (tf.opacity_pins_size() > max_pins || tf.colour_pins_size() > max_pins) {
+        return invalid("transfer_function: at most " + std::to_string(max_pins) + " pins of a kind");
+    }
+    view::TransferFunction from;
+    for (const pb::OpacityPin& pin : tf.opacity_pins()) {
+        const auto opacity_pin = opacity_pin_from(pin);
+        if (!opacity_pin) {
+            return opacity_pin.error();
+        }
+        from.opacity_pins.push_back(*opacity_pin);
+    }
+    for (const pb::ColourPin& pin : tf.colour_pins()) {
+        from.colour_pins.push_back({.at = pin.at(), .rgb = colour_from(pin.colour())});
+    }
+    from.background = colour_from(tf.background());
+    if (const auto status = view::validate(from); !status) {
+        return invalid(status.error());
+    }
+    return from;
+}
+
+pb::Factorisation to_wire(const view::Factorisation& factorisation) {
+    pb::Factorisation to;
+    to.set_projection(to_wire(factorisation.projection));
+    *to.mutable_lattice() = to_wire(factorisation.lattice);
+    set(*to.mutable_eye(), factorisation.eye);
+    set(*to.mutable_direction(), factorisation.direction);
+    for (const view::Face& face : factorisation.faces) {
+        *to.add_faces() = to_wire(face);
+    }
+    return to;
+}
+
+Parsed<view::Factorisation> factorisation_from(const pb::Factorisation& factorisation) {
+    const auto projection = projection_from(factorisation.projection());
+    if (!projection) {
+        return projection.error();
+    }
+    const auto lattice = lattice_from(factorisation.lattice());
+    if (!lattice) {
+        return lattice.error();
+    }
+    auto faces = faces_from(factorisation);
+    if (!faces) {
+        return faces.error();
+    }
+    view::Factorisation from{.projection = *projection,
+                             .lattice = *lattice,
+                             .eye = vec3_from(factorisation.eye()),
+                             .direction = vec3_from(factorisation.direction()),
+                             .faces = std::move(*faces)};
+    if (!finite(from.eye) || !finite(from.direction)) {
+        return invalid("factorisation: a finite eye and direction are wanted");
+    }
+    if (const auto status = view::validate(from); !status) {
+        return invalid(status.error());
+    }
+    return from;
+}
+
+pb::SetView to_wire(const View& view) {
+    pb::SetView to;
+    to.set_revision(view.revision);
+    *to.mutable_camera() = to_wire(view.camera);
+    to.set_width(static_cast<std::uint32_t>(view.size.width));
+    to.set_height(static_cast<std::uint32_t>(view.size.height));
+    *to.mutable_transfer_function() = to_wire(view.tf);
+    to.set_quality(to_wire(view.quality));
+    to.set_deflate(view.deflate);
+    return to;
+}
+
+Parsed<View> view_from(const pb::SetView& view) {
+    constexpr std::uint32_t any_int = 1U << 30;
+    const auto camera = camera_from(view.camera());
+    if (!camera) {
+        return camera.error();
+    }
+    if (view.width() > any_int || view.height() > any_int) {
+        return invalid("view: the picture is too large");
+    }
+    const view::ImageSize size{.width = static_cast<int>(view.width()),
+                               .height = static_cast<int>(view.height())};
+    if (const auto status = view::validate(*camera, size); !status) {
+        return invalid(status.error());
+    }
+    auto tf = transfer_function_from(view.transfer_function());
+    if (!tf) {
+        return tf.error();
+    }
+    const auto quality = quality_from(view.quality());
+    if (!quality) {
+        return quality.error();
+    }
+    return View{.revision = view.revision(),
+                .camera = *camera,
+                .size = size,
+                .tf = std::move(*tf),
+                .quality = *quality,
+                .deflate = view.deflate()};
+}
+
+}  // namespace shearwater::wire
