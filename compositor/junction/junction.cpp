@@ -1,0 +1,127 @@
+#include "compositor/junction/junction.h"
+
+#include "protocol/wire/convert.h"
+
+namespace shearwater::junction {
+
+namespace pb = wire::pb;
+using namespace std::chrono_literals;
+
+Effects Junction::start() {
+    Effects effects;
+    member_.start(effects.net);
+    return effects;
+}
+
+Effects Junction::handle(const wire::NetEvent& event, wire::Time now) {
+    Effects effects;
+    switch (member_.handle(event, now, effects.net)) {
+        case node::Member::News::assigned:
+            on_assigned(effects);
+            break;
+        case node::Member::News::parent_up:
+            send_histogram(effects);
+            break;
+        case node::Member::News::parent_down:
+            branch_.cancel_all(effects.net);
+            break;
+        case node::Member::News::none:
+        case node::Member::News::refused:
+            break;
+    }
+    if (const auto* received = std::get_if<wire::Received>(&event)) {
+        if (member_.is_parent(received->link)) {
+            on_parent_message(*received, now, effects);
+        } else if (!member_.is_server(received->link)) {
+            on_child_message(*received, effects);
+        }
+    } else if (const auto* down = std::get_if<wire::LinkDown>(&event)) {
+        branch_.link_down(down->link);
+    } else if (std::holds_alternative<wire::Tick>(event)) {
+        branch_.tick(now);
+        if (now - last_report_ > 1s) {
+            last_report_ = now;
+            report(effects);
+        }
+    }
+    if (branch_.take_histogram_news()) {
+        send_histogram(effects);
+    }
+    for (node::MergeJob& job : branch_.take_complete()) {
+        effects.merges.push_back({std::move(job)});
+    }
+    return effects;
+}
+
+Effects Junction::handle(MergeDone done) {
+    Effects effects;
+    memory_ = done.memory;
+    member_.tell_parent(std::move(done.windows), effects.net);
+    return effects;
+}
+
+void Junction::on_assigned(Effects& effects) {
+    const pb::Assign& assign = *member_.assignment();
+    std::vector<node::Branch::ChildSpec> children;
+    for (const pb::Child& child : assign.children()) {
+        if (const auto box = wire::box_from(child.box())) {
+            children.push_back({static_cast<int>(child.place()), *box});
+        }
+    }
+    branch_.configure(assign.epoch(), std::move(children), effects.net);
+    report(effects);
+}
+
+void Junction::on_parent_message(const wire::Received& received, wire::Time now, Effects& effects) {
+    const wire::Message& message = received.message;
+    if (const auto* render = std::get_if<pb::Render>(&message.body)) {
+        const auto factorisation = wire::factorisation_from(render->factorisation());
+        if (!factorisation) {
+            effects.net.emplace_back(
+                wire::CloseLink{received.link, factorisation.error().reason, factorisation.error().text});
+            return;
+        }
+        branch_.begin(*factorisation, *render, now, effects.net);
+    } else if (const auto* cancel = std::get_if<pb::Cancel>(&message.body)) {
+        branch_.cancel(cancel->frame(), effects.net);
+    } else if (std::holds_alternative<pb::SetMapping>(message.body)) {
+        branch_.tell_children(message, effects.net);
+    } else if (std::holds_alternative<pb::Voxels>(message.body)) {
+        branch_.deliver_voxels(message, effects.net);
+    }
+}
+
+void Junction::on_child_message(const wire::Received& received, Effects& effects) {
+    if (const auto* adopt = std::get_if<pb::Adopt>(&received.message.body)) {
+        branch_.adopt(received.link, *adopt, effects.net);
+    } else if (branch_.is_child(received.link)) {
+        if (const auto need = branch_.receive(received.link, received.message, effects.net)) {
+            member_.tell_parent(wire::message(*need), effects.net);
+        }
+    } else {
+        effects.net.emplace_back(
+            wire::CloseLink{received.link, pb::REASON_BAD_TYPE, "a child says first which place it holds"});
+    }
+}
+
+void Junction::send_histogram(Effects& effects) {
+    if (const auto histogram = branch_.histogram()) {
+        member_.tell_parent(wire::message(wire::to_wire(*histogram)), effects.net);
+    }
+}
+
+void Junction::report(Effects& effects) {
+    if (!member_.assignment()) {
+        return;
+    }
+    pb::Report report;
+    report.set_place(member_.assignment()->place());
+    report.set_phase(pb::PHASE_READY);
+    report.set_fraction(1);
+    report.set_memory_bytes(memory_.resident);
+    report.set_peak_bytes(memory_.peak);
+    report.set_parent_lost(!member_.has_parent());
+    member_.tell_server(wire::message(std::move(report)), effects.net);
+}
+
+}  // namespace shearwater::junction
