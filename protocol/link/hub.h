@@ -8,24 +8,23 @@
 #include <string>
 
 #include "common/base/result.h"
+#include "protocol/link/limits.h"
 #include "protocol/link/secret.h"
 #include "protocol/wire/events.h"
 
 namespace shearwater::link {
 
-struct Limits {
-    std::chrono::milliseconds handshake{5000};
-    std::chrono::milliseconds heartbeat{2000};  // a ping goes out after so much silence of ours
-    std::chrono::milliseconds silence{10000};   // and a link is given up after so much of the peer's
-    std::chrono::milliseconds stall{30000};     // for one message to leave
-    std::size_t queued_messages = 1024;         // more end the link: the peer is too slow
-    std::size_t queued_bytes = std::size_t{1} << 30;
-    std::size_t links = 256;                    // accepted at a time
+// A peer that never got through its handshake: no link came of it, so no event tells. For logs.
+struct Refused {
+    std::string peer_host;
+    wire::pb::Reason reason;
+    std::string text;
 };
 
 class Hub {
   public:
     using OnEvent = std::function<void(wire::NetEvent)>;
+    using OnRefused = std::function<void(const Refused&)>;
 
     // `name` is what peers show for us. on_event is called from the io_context's thread only, never
     // from inside perform().
@@ -36,11 +35,13 @@ class Hub {
 
     // Starts accepting; port 0 takes a free one. Gives the address really bound.
     base::Result<wire::Address> listen(const wire::Address& address);
+    void on_refused(OnRefused on_refused);
 
-    // Effects on links that are gone do nothing.
+    // Effects on links that are gone, or not up yet, do nothing; a link that is being dialled can be closed.
     void perform(wire::NetEffect effect);
 
-    // Says goodbye on all links and drains what is queued, for at most `limit`; then calls `done`.
+    // Says goodbye on all links and drains what is queued, for at most `limit`; then calls `done`. No
+    // event comes any more, nor does any effect do anything.
     void shut_down(std::chrono::milliseconds limit, std::function<void()> done);
 
     std::uint64_t bytes_sent() const;

@@ -25,7 +25,8 @@ class Secret {
 
     using Proof = std::array<std::byte, 32>;
     // HMAC-SHA-256 over `label` and both nonces: a proof of one direction is of no use in the other.
-    Proof prove(std::string_view label, std::span<const std::byte> nonce_a, std::span<const std::byte> nonce_b) const;
+    Proof prove(std::string_view label, std::span<const std::byte> nonce_a,
+                std::span<const std::byte> nonce_b) const;
 
   private:
     explicit Secret(std::string text);
