@@ -1,0 +1,281 @@
+#include "client/model/session.h"
+
+#include <algorithm>
+
+#include "client/model/intake.h"
+#include "protocol/wire/convert.h"
+
+namespace shearwater::model {
+
+namespace {
+
+namespace pb = wire::pb;
+using Seconds = std::chrono::duration<double>;
+
+// Dialling again would end the same way until a person changes something.
+bool is_final(pb::Reason reason) {
+    return reason == pb::REASON_BAD_SECRET || reason == pb::REASON_BAD_VERSION;
+}
+
+std::string words_for(const wire::LinkDown& down, const wire::Address& server) {
+    const std::string where = wire::to_string(server);
+    switch (down.reason) {
+        case pb::REASON_BAD_SECRET:
+            return "The secret is not the one " + where + " has. Start again with the right one.";
+        case pb::REASON_BAD_VERSION:
+            return where + " speaks another version of the protocol.";
+        case pb::REASON_UNREACHABLE:
+            return "No server answers at " + where + ".";
+        case pb::REASON_SHUTDOWN:
+            return "The server was stopped.";
+        case pb::REASON_TIMED_OUT:
+            return "The server has fallen silent.";
+        case pb::REASON_LOST:
+            return "The connection broke.";
+        case pb::REASON_TOO_MANY_LINKS:
+            return "The server has as many clients as it takes.";
+        default:
+            break;
+    }
+    const std::string why = base::printable(down.text.empty() ? wire::text_of(down.reason) : down.text);
+    return "The link ended: " + why + ".";
+}
+
+}  // namespace
+
+void Session::start(wire::Time now) {
+    dial(now);
+}
+
+void Session::dial(wire::Time) {
+    link_ = wire::LinkId{static_cast<std::uint64_t>(link_) + 1};
+    linked_ = true;
+    connection_ = Connection::connecting;
+    words_ = "Connecting to " + wire::to_string(server_) + " ...";
+    effects_.push_back(wire::Dial{link_, server_, pb::ROLE_CLIENT});
+}
+
+void Session::retry(wire::Time now) {
+    if (connection_ == Connection::waiting || connection_ == Connection::refused) {
+        retry_after_ = first_retry;
+        dial(now);
+    }
+}
+
+void Session::handle(const wire::NetEvent& event, wire::Time now) {
+    if (const auto* up = std::get_if<wire::LinkUp>(&event); up != nullptr && on_link(up->link)) {
+        on_up();
+    } else if (const auto* received = std::get_if<wire::Received>(&event);
+               received != nullptr && on_link(received->link)) {
+        on_message(received->message, now);
+    } else if (const auto* down = std::get_if<wire::LinkDown>(&event);
+               down != nullptr && on_link(down->link)) {
+        on_down(*down, now);
+    } else if (std::holds_alternative<wire::Tick>(event)) {
+        on_tick(now);
+    }
+}
+
+void Session::on_up() {
+    connection_ = Connection::connected;
+    words_ = "Connected to " + wire::to_string(server_) + ".";
+    described_ = false;
+    last_frame_number_ = 0;
+    sent_.clear();
+    answered_ = revision_;
+}
+
+void Session::on_down(const wire::LinkDown& down, wire::Time now) {
+    linked_ = false;
+    wait(words_for(down, server_), now);
+    if (is_final(down.reason)) {
+        connection_ = Connection::refused;
+    }
+}
+
+void Session::give_up(const wire::Fault& fault, wire::Time now) {
+    effects_.push_back(wire::CloseLink{link_, fault.reason, fault.text});
+    linked_ = false;
+    wait("The server sent what it must not (" + base::printable(fault.text) + ").", now);
+}
+
+void Session::wait(std::string words, wire::Time now) {
+    connection_ = Connection::waiting;
+    words_ = std::move(words);
+    tree_ = {};
+    retry_at_ = now + retry_after_;
+    retry_after_ = std::min(2 * retry_after_, longest_retry);
+}
+
+void Session::on_message(const wire::Message& message, wire::Time now) {
+    if (const auto* description = std::get_if<pb::CubeDescription>(&message.body)) {
+        auto cube = cube_from(*description);
+        if (!cube) {
+            return give_up(cube.error(), now);
+        }
+        cube_ = std::move(*cube);
+        described_ = true;
+        unsent_ = wish_.has_value();
+        quality_ = view::Quality::normal;
+        send_if_due(now);
+    } else if (const auto* state = std::get_if<pb::TreeState>(&message.body)) {
+        auto tree = tree_from(*state);
+        if (!tree) {
+            return give_up(tree.error(), now);
+        }
+        on_tree(std::move(*tree), now);
+    } else if (std::holds_alternative<pb::Frame>(message.body)) {
+        on_frame(message, now);
+    } else {
+        const std::string what = std::string(wire::name(message.body)) + " is not for a client";
+        give_up({pb::REASON_BAD_TYPE, what}, now);
+    }
+}
+
+// A frame that lacks parts is asked for again when more of the tree is there.
+void Session::on_tree(Tree tree, wire::Time now) {
+    tree_ = std::move(tree);
+    const int ready = tree_.in_phase(pb::PHASE_READY);
+    if (frame_ && !frame_->missing.empty() && ready > ready_at_frame_ && wish_) {
+        unsent_ = true;
+        send_if_due(now);
+    }
+    ready_at_frame_ = std::min(ready_at_frame_, ready);
+}
+
+void Session::on_frame(const wire::Message& message, wire::Time now) {
+    const auto& frame = std::get<pb::Frame>(message.body);
+    const auto sent = std::find_if(sent_.begin(), sent_.end(),
+                                   [&](const Sent& view) { return view.revision == frame.revision(); });
+    if (sent == sent_.end()) {
+        return give_up({pb::REASON_INVALID, "frame: of a view that was not asked for"}, now);
+    }
+    if (frame.number() <= last_frame_number_) {
+        return give_up({pb::REASON_INVALID, "frame: its number does not rise"}, now);
+    }
+    auto missing = missing_from(frame);
+    if (!missing) {
+        return give_up(missing.error(), now);
+    }
+    auto pixels = picture_from(message, sent->size);
+    if (!pixels) {
+        return give_up(pixels.error(), now);
+    }
+    last_frame_number_ = frame.number();
+    effects_.push_back(wire::Send{link_, wire::message([&] {
+                                      pb::FrameShown shown;
+                                      shown.set_number(frame.number());
+                                      return shown;
+                                  }())});
+    const Seconds latency = now - sent->at;
+    const double server_seconds = std::max(0.0, frame.stats().total_seconds());
+    meter_.count(now, latency, message.payload_size());
+    if (sent->revision == revision_ && sent->revision == answered_ + 1) {
+        notice_link_speed(message.payload_size(), latency.count() - server_seconds);
+    }
+    frame_ = FrameNote{sent->revision,         sent->size,    sent->quality, std::move(*missing),
+                       message.payload_size(), server_seconds};
+    picture_ = Picture{sent->revision, sent->quality, frame_->missing.empty(), std::move(*pixels)};
+    retry_after_ = first_retry;
+    ready_at_frame_ = tree_.in_phase(pb::PHASE_READY);
+    forget_older_than(frame.revision());
+    send_if_due(now);
+}
+
+void Session::on_tick(wire::Time now) {
+    if (connection_ == Connection::waiting && now >= retry_at_) {
+        dial(now);
+    }
+    const auto rest = now - changed_at_;
+    const auto improve = [&](view::Quality to) {
+        if (wish_ && static_cast<int>(to) > static_cast<int>(quality_)) {
+            quality_ = to;
+            unsent_ = true;
+        }
+    };
+    if (wish_ && is_worth_asking_again(now)) {
+        unsent_ = true;
+    }
+    if (rest >= rest_for_high) {
+        improve(view::Quality::high);
+    } else if (rest >= rest_for_normal) {
+        improve(view::Quality::normal);
+    }
+    send_if_due(now);
+}
+
+// The tree is whole and nothing is under way, and yet the newest picture lacks parts: they were lost while
+// it was drawn.
+bool Session::is_worth_asking_again(wire::Time now) const {
+    return tree_.ready && frame_ && !frame_->missing.empty() && answered_ == revision_ &&
+           now - sent_at_ >= again_after;
+}
+
+void Session::want(const Wish& wish, Change change, wire::Time now) {
+    if (wish_ == wish) {
+        return;
+    }
+    wish_ = wish;
+    quality_ = change == Change::dragging ? view::Quality::draft : view::Quality::normal;
+    changed_at_ = now;
+    unsent_ = true;
+    send_if_due(now);
+}
+
+// One view unanswered keeps the server busy and a second one waits at it; further ones only replace that.
+void Session::send_if_due(wire::Time now) {
+    if (!unsent_ || !described_ || connection_ != Connection::connected) {
+        return;
+    }
+    const std::uint64_t unanswered = revision_ - answered_;
+    if (unanswered < 2 || (unanswered < most_unanswered && now - sent_at_ >= busy_interval)) {
+        send_view(now);
+    }
+}
+
+void Session::send_view(wire::Time now) {
+    const wire::View view{.revision = ++revision_,
+                          .camera = camera(wish_->viewpoint, cube_->lattice),
+                          .size = wish_->size,
+                          .tf = wish_->tf,
+                          .quality = quality_,
+                          .deflate = deflate_};
+    effects_.push_back(wire::Send{link_, wire::message(wire::to_wire(view))});
+    sent_.push_back({revision_, view.size, view.quality, now});
+    sent_at_ = now;
+    unsent_ = false;
+}
+
+// Views before the one just answered were passed over; that one may be answered again.
+void Session::forget_older_than(std::uint64_t revision) {
+    answered_ = std::max(answered_, revision);
+    while (!sent_.empty() && sent_.front().revision < revision) {
+        sent_.pop_front();
+    }
+}
+
+// Deflating a picture takes about as long as a link of this speed needs to carry what it saves.
+void Session::notice_link_speed(std::size_t bytes, double link_seconds) {
+    constexpr double slow = 30e6;  // bytes a second
+    constexpr std::size_t enough_to_tell = std::size_t{1} << 16;
+    if (bytes >= enough_to_tell && link_seconds > 0) {
+        deflate_ = deflate_ || static_cast<double>(bytes) / link_seconds < slow;
+    }
+}
+
+Status Session::status(wire::Time now) const {
+    Status status;
+    status.connection = connection_;
+    status.words = words_;
+    if (connection_ == Connection::waiting) {
+        status.retry_in = std::max(0.0, Seconds(retry_at_ - now).count());
+    }
+    status.sent = revision_;
+    status.cube = cube_;
+    status.tree = tree_;
+    status.frame = frame_;
+    status.rates = meter_.rates(now);
+    return status;
+}
+
+}  // namespace shearwater::model

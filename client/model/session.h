@@ -1,0 +1,127 @@
+#pragma once
+// The client's side of the conversation with a server, as a pure state machine: network events and wishes
+// in, network effects, pictures and a status out. Knows no sockets, windows or clocks.
+//
+//   dial -> CubeDescription, TreeState -> SetView (the newest wins) -> Frame -> FrameShown -> ...
+//
+// While the view is being dragged it asks for drafts, then for a normal picture, then for a high one. The
+// wish is kept over a lost link and asked for again on the next.
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "client/model/meter.h"
+#include "client/model/status.h"
+#include "client/model/viewpoint.h"
+#include "common/view/transfer_function.h"
+#include "protocol/wire/events.h"
+#include "protocol/wire/header.h"
+
+namespace shearwater::model {
+
+// What a person wants to see.
+struct Wish {
+    Viewpoint viewpoint;
+    view::TransferFunction tf = view::default_transfer_function();
+    view::ImageSize size;  // at most what view::validate allows
+    bool operator==(const Wish&) const = default;
+};
+
+enum class Change {
+    dragging,  // one of many in a row: a draft will do
+    single,
+};
+
+class Session {
+  public:
+    // Rest before a normal and a high picture is asked for.
+    static constexpr std::chrono::milliseconds rest_for_normal{100};
+    static constexpr std::chrono::milliseconds rest_for_high{300};
+    // Between dials: doubled from one failure to the next.
+    static constexpr std::chrono::milliseconds first_retry{250};
+    static constexpr std::chrono::milliseconds longest_retry{5000};
+    // While two views are unanswered, between further ones; and the most that may be unanswered.
+    static constexpr std::chrono::milliseconds busy_interval{40};
+    static constexpr std::size_t most_unanswered = 256;
+    // Before a view is asked for again whose picture lacked parts although the tree is whole.
+    static constexpr std::chrono::milliseconds again_after{1000};
+
+    explicit Session(wire::Address server) : server_(std::move(server)) {}
+
+    void start(wire::Time now);
+    void handle(const wire::NetEvent& event, wire::Time now);
+    // What is to be seen from now on. The same wish again changes nothing.
+    void want(const Wish& wish, Change change, wire::Time now);
+    // Dials at once when waiting or refused.
+    void retry(wire::Time now);
+
+    // Everything that came about since the last call.
+    std::vector<wire::NetEffect> take_effects() { return std::exchange(effects_, {}); }
+    std::optional<Picture> take_picture() { return std::exchange(picture_, std::nullopt); }
+
+    Status status(wire::Time now) const;
+
+  private:
+    // A view that was sent and may still be answered.
+    struct Sent {
+        std::uint64_t revision;
+        view::ImageSize size;
+        view::Quality quality;
+        wire::Time at;
+    };
+
+    void dial(wire::Time now);
+    void on_up();
+    void on_down(const wire::LinkDown& down, wire::Time now);
+    void on_message(const wire::Message& message, wire::Time now);
+    void on_tree(Tree tree, wire::Time now);
+    void on_frame(const wire::Message& message, wire::Time now);
+    void on_tick(wire::Time now);
+    // Ends the link, and waits to dial again.
+    void give_up(const wire::Fault& fault, wire::Time now);
+    void wait(std::string words, wire::Time now);
+
+    bool is_worth_asking_again(wire::Time now) const;
+    void send_if_due(wire::Time now);
+    void send_view(wire::Time now);
+    void forget_older_than(std::uint64_t revision);
+    void notice_link_speed(std::size_t bytes, double link_seconds);
+    bool on_link(wire::LinkId link) const { return linked_ && link == link_; }
+
+    wire::Address server_;
+    std::vector<wire::NetEffect> effects_;
+    std::optional<Picture> picture_;
+
+    // The link.
+    Connection connection_ = Connection::connecting;
+    std::string words_;
+    bool linked_ = false;  // a dial is under way or has come up
+    wire::LinkId link_{0};
+    std::chrono::milliseconds retry_after_ = first_retry;
+    wire::Time retry_at_{};
+    std::uint64_t last_frame_number_ = 0;  // on this link
+
+    // What the server told.
+    std::optional<Cube> cube_;
+    bool described_ = false;  // on this link
+    Tree tree_;
+    std::optional<FrameNote> frame_;
+
+    // What is wanted, and how well it was asked for.
+    std::optional<Wish> wish_;
+    view::Quality quality_ = view::Quality::normal;
+    bool unsent_ = false;
+    wire::Time changed_at_{};
+    wire::Time sent_at_{};
+    std::uint64_t revision_ = 0;  // of the newest view sent
+    std::deque<Sent> sent_;       // the one last answered first, then the unanswered
+    std::uint64_t answered_ = 0;
+    bool deflate_ = false;
+    int ready_at_frame_ = 0;  // nodes that were ready when the last frame came
+
+    Meter meter_;
+};
+
+}  // namespace shearwater::model

@@ -1,0 +1,93 @@
+#pragma once
+// What the session knows, for the panel to show.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/image/image.h"
+#include "common/view/factorisation.h"
+#include "common/volume/mapping.h"
+#include "protocol/wire/shearwater.pb.h"
+
+namespace shearwater::model {
+
+struct Cube {
+    std::string name, object, unit;  // printable
+    view::Lattice lattice;
+    volume::Mapping mapping;
+    bool operator==(const Cube&) const = default;
+};
+
+struct Node {
+    std::uint32_t place = 0;
+    int depth = 0;  // 0: the server
+    wire::pb::Role role = wire::pb::ROLE_UNKNOWN;
+    std::string name;  // printable
+    volume::Box box;
+    wire::pb::Phase phase = wire::pb::PHASE_VACANT;
+    double fraction = 0;  // of the phase, 0 to 1
+    std::uint64_t memory_bytes = 0;
+    std::string error;  // printable
+};
+
+// The tree, every node before its children.
+struct Tree {
+    std::vector<Node> nodes;
+    bool ready = false;
+
+    // Renderers' progress over both passes, 0 to 1.
+    double loaded() const;
+    int in_phase(wire::pb::Phase phase) const;
+    int renderers() const;
+};
+
+struct Missing {
+    std::uint32_t place = 0;
+    volume::Box box;
+};
+
+// The last frame, without its pixels.
+struct FrameNote {
+    std::uint64_t revision = 0;
+    view::ImageSize size;
+    view::Quality quality = view::Quality::normal;
+    std::vector<Missing> missing;  // empty: the picture is whole
+    std::size_t bytes = 0;         // as it travelled
+    double server_seconds = 0;
+};
+
+// Means over the last two seconds; a latency is the time from sending a view to having its picture.
+struct Rates {
+    double frames_per_second = 0;  // 0 while nothing moves
+    double latency_seconds = 0;
+    double bytes_per_frame = 0;
+};
+
+enum class Connection {
+    connecting,
+    connected,
+    waiting,  // to dial again
+    refused,  // dialling again would not help
+};
+
+struct Status {
+    Connection connection = Connection::connecting;
+    std::string words;       // what became of the link, for a person
+    double retry_in = 0;     // seconds, while waiting
+    std::uint64_t sent = 0;  // revision of the newest view that left
+    std::optional<Cube> cube;
+    Tree tree;
+    std::optional<FrameNote> frame;
+    Rates rates;
+};
+
+// A decoded picture.
+struct Picture {
+    std::uint64_t revision = 0;
+    view::Quality quality = view::Quality::normal;
+    bool whole = true;
+    image::Image<image::Rgba8> pixels;
+};
+
+}  // namespace shearwater::model
