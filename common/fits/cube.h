@@ -15,19 +15,19 @@
 namespace shearwater::fits {
 
 struct OpenOptions {
-    std::optional<int> hdu;            // 0 is the primary; unset: the first that holds a cube
+    std::optional<int> hdu;             // 0 is the primary; unset: the first that holds a cube
     std::optional<std::int64_t> plane;  // index along a fourth axis longer than 1; unset: 0, with a note
 };
 
 struct CubeInfo {
     std::string path;
     int hdu = 0;
-    volume::Index3 n{};                  // the three axes longer than 1, in the file's order
-    std::array<int, 3> file_axes{};      // their FITS axis numbers, from 1
-    int bitpix = 0;                      // as stored; of the uncompressed image where it is compressed
-    std::int64_t plane = 0;              // chosen along the fourth axis
-    std::int64_t planes = 1;             // its length
-    std::string object, unit;            // printable
+    volume::Index3 n{};                     // the three axes longer than 1, in the file's order
+    std::array<int, 3> file_axes{};         // their FITS axis numbers, from 1
+    int bitpix = 0;                         // as stored; of the uncompressed image where it is compressed
+    std::int64_t plane = 0;                 // chosen along the fourth axis
+    std::int64_t planes = 1;                // its length
+    std::string object, unit;               // printable
     std::array<std::string, 3> axis_types;  // CTYPE, printable
     // What was repaired, assumed or left out, a sentence each, for the person.
     std::vector<std::string> notes;

@@ -168,7 +168,7 @@ TEST(Histogram, RefusesBinsThatContradictThemselves) {
     EXPECT_FALSE(histogram.merge(Bins{{0, 1}}, 0, 1, 1));
     EXPECT_FALSE(histogram.merge(Bins{{one, 0}}, 0, 1, 1));
     EXPECT_FALSE(histogram.merge(Bins{{one, most}}, 0, 1, 1));
-    EXPECT_FALSE(histogram.merge(Bins{{one, most / 2}, {two, most / 2}}, 0, 1, 2));
+    EXPECT_FALSE(histogram.merge(Bins{{one, most / 2}, {two, most / 2 + 1}}, 0, 1, 2));
     EXPECT_FALSE(histogram.merge(Bins{{one, 1}}, most, 1, 1));
     EXPECT_FALSE(histogram.merge(Bins{{one, 1}, {two, 1}}, 0, 1, 3));
     EXPECT_FALSE(histogram.merge(Bins{{one, 1}, {two, 1}}, 0, 0.5, 2));
