@@ -1,0 +1,40 @@
+#pragma once
+// The options that say which cube to show and how its values become codes: the server's and the
+// one command's.
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/result.h"
+#include "common/fits/cube.h"
+#include "common/view/geometry.h"
+#include "common/volume/mapping.h"
+
+namespace shearwater::options {
+
+struct CubeOptions {
+    std::string path;
+    std::optional<int> hdu;
+    std::optional<std::int64_t> plane;
+    std::vector<double> range;  // lo hi, or empty
+    double percentile = 99.5;
+    std::string stretch = "linear";
+    int bits = 8;
+    std::vector<double> spacing;  // x y z, or empty: 1 1 1
+
+    // All but the path, which each command takes in its own way.
+    void add_to(CLI::App& app);
+
+    // What no option parser sees: a range upside down, spacings not above 0.
+    base::Status validate() const;
+    volume::Stretch stretch_value() const;
+    view::Vec3 spacing_value() const;
+    fits::OpenOptions open_options() const { return {.hdu = hdu, .plane = plane}; }
+
+    // The same as arguments for another of our programs, path first.
+    std::vector<std::string> arguments() const;
+};
+
+}  // namespace shearwater::options

@@ -1,0 +1,82 @@
+// shearwater-compositor: a junction of the tree. Merges its children's windows in visibility order.
+
+#include <spdlog/spdlog.h>
+
+#include <boost/asio/post.hpp>
+#include <boost/asio/thread_pool.hpp>
+
+#include "common/base/memory.h"
+#include "compositor/junction/junction.h"
+#include "protocol/daemon/options.h"
+#include "protocol/daemon/runtime.h"
+#include "protocol/wire/events.h"
+
+using namespace shearwater;
+
+namespace {
+
+junction::MergeDone carry_out(const junction::Merge& merge) {
+    const base::MemoryUse memory = base::memory_use();
+    return {.frame = merge.job.frame,
+            .windows = node::to_message(node::merge(merge.job)),
+            .memory = {memory.resident, memory.peak}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const std::string program = "shearwater-compositor";
+    CLI::App app("A compositor of a Shearwater tree: joins the server and merges its children's windows.",
+                 program);
+    daemon::MemberFlags flags;
+    flags.add_to(app, true);
+    if (const auto status = daemon::parse(app, argc, argv)) {
+        return *status;
+    }
+    const auto secret = flags.common.secret();
+    if (!secret) {
+        return daemon::refuse(program, secret.error());
+    }
+    auto member = flags.member(wire::pb::ROLE_COMPOSITOR);
+    if (!member) {
+        return daemon::refuse(program, member.error());
+    }
+    const auto listen = wire::parse_address(flags.listen, 0);
+    if (!listen) {
+        return daemon::refuse(program, listen.error());
+    }
+    flags.common.start_log(program);
+
+    std::optional<junction::Junction> junction;
+    boost::asio::thread_pool merging(1);
+    std::optional<daemon::Runtime> runtime;
+    const std::function<void(junction::Effects)> perform = [&](junction::Effects effects) {
+        runtime->perform(std::move(effects.net));
+        for (junction::Merge& merge : effects.merges) {
+            boost::asio::post(merging, [&, merge = std::move(merge)] {
+                auto done = std::make_shared<junction::MergeDone>(carry_out(merge));
+                runtime->post([&, done] { perform(junction->handle(std::move(*done))); });
+            });
+        }
+    };
+    runtime.emplace(program, *secret, [&](wire::NetEvent event) {
+        perform(junction->handle(event, std::chrono::steady_clock::now()));
+        if (const auto* down = std::get_if<wire::LinkDown>(&event)) {
+            spdlog::warn("link down: {}", down->text);
+        }
+    });
+    const auto bound = runtime->hub().listen(*listen);
+    if (!bound) {
+        return daemon::refuse(program, bound.error());
+    }
+    // Children on other machines reach us where the server sees us, unless we listen at one address only.
+    const bool anywhere = listen->host.empty() || listen->host == "0.0.0.0" || listen->host == "::";
+    member->listen = {anywhere ? std::string{} : bound->host, bound->port};
+    junction.emplace(*member);
+    spdlog::info("listening on {}", wire::to_string(*bound));
+    perform(junction->start());
+    const int status = runtime->run();
+    merging.stop();
+    merging.join();
+    return status;
+}

@@ -1,0 +1,101 @@
+#include "server/jobs/jobs.h"
+
+#include <boost/asio/post.hpp>
+#include <cstring>
+
+#include "common/image/rle.h"
+#include "common/image/warp.h"
+#include "protocol/wire/convert.h"
+
+namespace shearwater::jobs {
+
+namespace pb = wire::pb;
+
+namespace {
+
+double seconds_since(wire::Time begin) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+std::vector<std::byte> encode(const image::Image<image::Rgba8>& picture, bool deflate, pb::Frame& frame) {
+    std::vector<std::byte> coded(image::rle_bound(picture.pixels().size()));
+    coded.resize(image::encode_rle(picture.pixels(), coded));
+    frame.set_encoding(pb::ENCODING_RLE);
+    if (deflate) {
+        std::vector<std::byte> smaller = image::deflate(coded);
+        if (smaller.size() < coded.size()) {
+            frame.set_encoding(pb::ENCODING_RLE_DEFLATE);
+            return smaller;
+        }
+    }
+    return coded;
+}
+
+}  // namespace
+
+Jobs::Jobs(int threads, fits::Cube cube, std::function<void(head::JobEvent)> tell)
+    : cube_(std::move(cube)), tell_(std::move(tell)), workers_(threads) {}
+
+Jobs::~Jobs() {
+    frames_.stop();
+    reading_.stop();
+    frames_.join();
+    reading_.join();
+}
+
+void Jobs::perform(head::Job job) {
+    if (auto* frame = std::get_if<head::Finish>(&job)) {
+        boost::asio::post(frames_, [this, work = std::move(*frame)] { finish(work); });
+    } else if (auto* read = std::get_if<head::ReadVoxels>(&job)) {
+        boost::asio::post(reading_, [this, work = std::move(*read)] { read_voxels(work); });
+    }
+}
+
+void Jobs::finish(const head::Finish& job) {
+    const node::Merged merged = node::merge(job.merge);
+    pb::Frame frame;
+    frame.set_number(merged.frame);
+    frame.set_revision(job.view.revision);
+    frame.set_width(static_cast<std::uint32_t>(job.view.size.width));
+    frame.set_height(static_cast<std::uint32_t>(job.view.size.height));
+    for (const node::Missing& missing : merged.missing) {
+        pb::Missing* const entry = frame.add_missing();
+        entry->set_place(static_cast<std::uint32_t>(missing.place));
+        *entry->mutable_box() = wire::to_wire(missing.box);
+    }
+    const wire::Time warp_begin = std::chrono::steady_clock::now();
+    const auto picture = image::warp(job.merge.factorisation, merged.windows, job.view.camera, job.view.size,
+                                     job.view.tf.background, workers_);
+    const wire::Time encode_begin = std::chrono::steady_clock::now();
+    std::vector<std::byte> coded = encode(picture, job.view.deflate, frame);
+    pb::FrameStats* const stats = frame.mutable_stats();
+    *stats->mutable_leaves() = merged.stats;
+    stats->set_warp_seconds(std::chrono::duration<double>(encode_begin - warp_begin).count());
+    stats->set_encode_seconds(seconds_since(encode_begin));
+    stats->set_total_seconds(seconds_since(job.asked));
+    tell_(head::Finished{merged.frame, wire::message(std::move(frame), std::move(coded))});
+}
+
+void Jobs::read_voxels(const head::ReadVoxels& job) {
+    constexpr std::int64_t most_voxels = (std::int64_t{64} << 20) / 4;
+    pb::Voxels voxels;
+    voxels.set_place(job.need.place());
+    voxels.set_request(job.need.request());
+    *voxels.mutable_box() = job.need.box();
+    std::vector<std::byte> payload;
+    const auto box = wire::box_from(job.need.box());
+    if (!box || box->voxels() > most_voxels) {
+        voxels.set_error("more voxels at a time than are sent");
+    } else {
+        std::vector<float> values(static_cast<std::size_t>(box->voxels()));
+        if (const auto read = cube_.read(*box, values); read) {
+            payload.resize(values.size() * sizeof(float));
+            std::memcpy(payload.data(), values.data(), payload.size());
+        } else {
+            voxels.set_error(read.error().message());
+        }
+    }
+    tell_(head::VoxelsRead{wire::message(std::move(voxels), std::move(payload))});
+}
+
+}  // namespace shearwater::jobs

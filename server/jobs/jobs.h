@@ -1,0 +1,36 @@
+#pragma once
+// Carries out the head's jobs: finishing frames on one thread that shares its loops with the workers, and
+// reading voxels for renderers that cannot see the file on another.
+
+#include <boost/asio/thread_pool.hpp>
+#include <functional>
+#include <optional>
+
+#include "common/base/workers.h"
+#include "common/fits/cube.h"
+#include "server/head/head.h"
+
+namespace shearwater::jobs {
+
+class Jobs {
+  public:
+    // `tell` is called from the jobs' threads and must only pass the event on.
+    Jobs(int threads, fits::Cube cube, std::function<void(head::JobEvent)> tell);
+    ~Jobs();
+    Jobs(const Jobs&) = delete;
+    Jobs& operator=(const Jobs&) = delete;
+
+    void perform(head::Job job);
+
+  private:
+    void finish(const head::Finish& job);
+    void read_voxels(const head::ReadVoxels& job);
+
+    fits::Cube cube_;  // touched by the reading thread only
+    std::function<void(head::JobEvent)> tell_;
+    base::Workers workers_;
+    boost::asio::thread_pool frames_{1};
+    boost::asio::thread_pool reading_{1};
+};
+
+}  // namespace shearwater::jobs
