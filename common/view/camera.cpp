@@ -1,0 +1,124 @@
+#include "common/view/camera.h"
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string>
+
+namespace shearwater::view {
+
+namespace {
+
+constexpr double radians(double degrees) {
+    return degrees * std::numbers::pi / 180;
+}
+
+// Right, up and forward of a camera, each of unit length and square to the others.
+struct Frame {
+    Vec3 right, up, forward;
+};
+
+Frame frame_of(const Camera& camera) {
+    const Vec3 forward = glm::normalize(camera.target - camera.eye);
+    const Vec3 right = glm::normalize(glm::cross(forward, camera.up));
+    return {right, glm::cross(right, forward), forward};
+}
+
+bool finite(const Vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+base::Status refuse(std::string detail) {
+    return base::error(base::Code::invalid_argument, "set the view", std::move(detail));
+}
+
+}  // namespace
+
+Camera camera_on(const Orbit& orbit, const Lattice& lattice, Projection projection, double fov,
+                 double height) {
+    const double az = radians(orbit.azimuth);
+    const double el = radians(orbit.elevation);
+    const double distance =
+        orbit.distance > 0 ? orbit.distance : 0.5 * lattice.diagonal() / std::sin(0.5 * radians(fov));
+    Camera camera;
+    camera.target = orbit.target;
+    camera.eye = orbit.target +
+                 distance * Vec3(std::sin(az) * std::cos(el), std::sin(el), std::cos(az) * std::cos(el));
+    // Over a pole +y is the line of sight; the limit of the pictures on the way there is still a picture.
+    const bool over_pole = std::abs(std::cos(el)) < 1e-6;
+    camera.up = over_pole ? Vec3(-std::sin(az), 0, -std::cos(az)) * std::sin(el) : Vec3(0, 1, 0);
+    camera.projection = projection;
+    camera.fov = fov;
+    camera.height = height > 0 ? height : lattice.diagonal();
+    return camera;
+}
+
+Rays rays_of(const Camera& camera, const ImageSize& size) {
+    const Frame frame = frame_of(camera);
+    const bool perspective = camera.projection == Projection::perspective;
+    const double picture_height = perspective ? 2 * std::tan(0.5 * radians(camera.fov)) : camera.height;
+    const double pixel = picture_height / size.height;
+    const Vec3 step_x = pixel * frame.right;
+    const Vec3 step_y = -pixel * frame.up;
+    const Vec3 corner = -0.5 * size.width * step_x - 0.5 * size.height * step_y;
+
+    Rays rays{.projection = camera.projection,
+              .origin = camera.eye,
+              .origin_x = Vec3(0),
+              .origin_y = Vec3(0),
+              .dir = frame.forward,
+              .dir_x = Vec3(0),
+              .dir_y = Vec3(0)};
+    if (perspective) {
+        rays.dir += corner;
+        rays.dir_x = step_x;
+        rays.dir_y = step_y;
+    } else {
+        rays.origin += corner;
+        rays.origin_x = step_x;
+        rays.origin_y = step_y;
+    }
+    return rays;
+}
+
+Rays in_voxel_space(const Rays& world, const Lattice& lattice) {
+    return {.projection = world.projection,
+            .origin = lattice.voxel_from_world(world.origin),
+            .origin_x = lattice.voxel_direction(world.origin_x),
+            .origin_y = lattice.voxel_direction(world.origin_y),
+            .dir = lattice.voxel_direction(world.dir),
+            .dir_x = lattice.voxel_direction(world.dir_x),
+            .dir_y = lattice.voxel_direction(world.dir_y)};
+}
+
+base::Status validate(const Camera& camera, const ImageSize& size) {
+    constexpr int max_side = 8192;
+    constexpr std::int64_t max_pixels = std::int64_t{1} << 25;
+    if (size.width < 1 || size.height < 1 || size.width > max_side || size.height > max_side ||
+        std::int64_t{size.width} * size.height > max_pixels) {
+        return refuse("a picture is 1 to 8192 pixels a side and at most 2^25 in all");
+    }
+    if (!finite(camera.eye) || !finite(camera.target) || !finite(camera.up)) {
+        return refuse("the eye, the target and the up direction have to be finite");
+    }
+    const Vec3 sight = camera.target - camera.eye;
+    const double distance = glm::length(sight);
+    const double up = glm::length(camera.up);
+    if (!(distance > 1e-100) || !std::isfinite(distance)) {
+        return refuse("the eye is on its target, or too far from it");
+    }
+    if (!(up > 1e-100) || !std::isfinite(up) ||
+        !(glm::length(glm::cross(sight / distance, camera.up / up)) > 1e-9)) {
+        return refuse("the up direction is along the line of sight");
+    }
+    if (camera.projection == Projection::perspective) {
+        if (!(camera.fov > 0 && camera.fov < 180)) {
+            return refuse("the field of view has to be above 0 and below 180 degrees");
+        }
+    } else if (!(camera.height > 0) || !std::isfinite(camera.height)) {
+        return refuse("the height of a parallel view has to be above 0");
+    }
+    return {};
+}
+
+}  // namespace shearwater::view

@@ -56,7 +56,7 @@ struct SliceMap {
 
 struct Factorisation {
     static constexpr int max_faces = 6;
-    static constexpr int max_side = 16384;                    // pixels of a face's side
+    static constexpr int max_side = 16384;                           // pixels of a face's side
     static constexpr std::int64_t max_area = std::int64_t{1} << 27;  // pixels of all faces
 
     Projection projection = Projection::perspective;
@@ -75,7 +75,28 @@ struct Factorisation {
 
 // The faces that the picture needs, each just large enough for its part of the picture and of the cube.
 // `quality` sets the pixels' pitch. The camera and size are valid.
-Factorisation factorise(const Camera& camera, const ImageSize& size, const Lattice& lattice, double resolution);
+Factorisation factorise(const Camera& camera, const ImageSize& size, const Lattice& lattice,
+                        double resolution);
+
+// Half-open range of pixels along one side of a face.
+struct PixelRange {
+    int first = 0, last = 0;
+    bool operator==(const PixelRange&) const = default;
+    bool empty() const { return last <= first; }
+};
+// The pixels i in [0, count) with lo <= offset + scale * i < hi, or <= hi where `closed`. Whoever asks
+// gets the very same answer, so ranges that meet at a plane neither share a pixel nor leave one out.
+PixelRange pixels_between(double offset, double scale, double lo, double hi, bool closed, int count);
+
+// The slices of a face in [lo, hi] that lie in front of the eye: [first, last], empty if last < first.
+// In a parallel view all do.
+struct SliceRange {
+    std::int64_t first = 0, last = -1;
+    bool operator==(const SliceRange&) const = default;
+    bool empty() const { return last < first; }
+};
+SliceRange slices_in_front(const Factorisation& factorisation, const Face& face, std::int64_t lo,
+                           std::int64_t hi);
 
 // The pixels of a face that rays through the (closed) box can reach: its window (DVR 3.4).
 Rect window_of(const Factorisation& factorisation, const Face& face, const volume::Box& box);

@@ -16,7 +16,7 @@ using Vec3 = glm::dvec3;
 
 // The grid a cube's samples lie on.
 struct Lattice {
-    volume::Index3 n{};   // voxels along each axis, each at least 2
+    volume::Index3 n{};     // voxels along each axis, each at least 2
     Vec3 spacing{1, 1, 1};  // world units between voxels, each above 0
 
     Vec3 voxel_from_world(const Vec3& world) const;

@@ -54,6 +54,10 @@ class BrickVolume {
     std::span<const std::uint16_t> codes16() const { return codes16_; }
 
   private:
+    base::Status fill_from(volume::VoxelSource& source, base::Workers& workers,
+                           const volume::Progress& progress, const std::stop_token& stop,
+                           std::size_t slab_bytes);
+
     volume::Box box_;
     volume::Index3 n_{};
     volume::Index3 grid_{};
