@@ -177,7 +177,7 @@ void Connection::handle(Message message) {
 // After our goodbye: what still comes is let go, until the peer closes or the deadline does.
 Awaitable<void> Connection::discard() {
     std::array<std::byte, 4096> scratch;
-    while (phase_ == Phase::closing) {
+    while (phase_ == Phase::closing && !broken_) {
         const auto [error, size] =
             co_await socket_.async_read_some(asio::buffer(scratch), asio::as_tuple(asio::use_awaitable));
         if (error) {
