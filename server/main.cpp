@@ -11,7 +11,7 @@
 #include "protocol/daemon/options.h"
 #include "protocol/daemon/runtime.h"
 #include "server/head/head.h"
-#include "server/jobs/jobs.h"
+#include "server/service/service.h"
 
 using namespace shearwater;
 
@@ -63,12 +63,12 @@ int serve(const std::string& program, const Flags& flags, const link::Secret& se
     link::Limits link_limits;
     link_limits.links = 2 * roster.plan().nodes.size() + head::Head::max_clients + 16;
     head::Head head(std::move(roster), limits_of(flags.cube));
-    std::optional<jobs::Jobs> jobs;
+    std::optional<service::Service> service;
     std::optional<daemon::Runtime> runtime;
     const auto perform = [&](head::Effects effects) {
         runtime->perform(std::move(effects.net));
         for (head::Job& job : effects.jobs) {
-            jobs->perform(std::move(job));
+            service->perform(std::move(job));
         }
     };
     runtime.emplace(
@@ -82,7 +82,7 @@ int serve(const std::string& program, const Flags& flags, const link::Secret& se
             }
         },
         link_limits);
-    jobs.emplace(flags.common.threads, std::move(cube), [&](head::JobEvent event) {
+    service.emplace(flags.common.threads, std::move(cube), [&](head::JobEvent event) {
         auto shared = std::make_shared<head::JobEvent>(std::move(event));
         runtime->post(
             [&, shared] { perform(head.handle(std::move(*shared), std::chrono::steady_clock::now())); });
@@ -95,7 +95,7 @@ int serve(const std::string& program, const Flags& flags, const link::Secret& se
     std::printf("listening on %s\n", wire::to_string(*bound).c_str());
     std::fflush(stdout);
     const int status = runtime->run();
-    jobs.reset();
+    service.reset();
     return status;
 }
 

@@ -78,7 +78,7 @@ class CosmicWeb final : public Formula {
         // Flows bend the foam's flat walls.
         const auto bent = [&](float coordinate, std::uint64_t which) {
             return coordinate +
-                   0.16F * fractal_noise(1.3F * p.x, 1.3F * p.y, 1.3F * p.z, 2, 0.5F, seed_ + which);
+                   0.11F * fractal_noise(1.3F * p.x, 1.3F * p.y, 1.3F * p.z, 2, 0.5F, seed_ + which);
         };
         const Point q = {bent(p.x, 1), bent(p.y, 2), bent(p.z, 3)};
         const float coarse = foam(nearest(q, seed_ + 4), 9);

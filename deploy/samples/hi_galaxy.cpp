@@ -32,15 +32,15 @@ constexpr Disc galaxy = {.x = 57,
                          .v = 0,
                          .inclination = 36 * degree,
                          .position_angle = 62 * degree,
-                         .radius = 46,
-                         .scale = 17,
-                         .hole = 8,
+                         .radius = 48,
+                         .scale = 30,
+                         .hole = 10,
                          .speed = 190,
                          .turnover = 6,
                          .arms = 2,
                          .pitch = 20 * degree,
-                         .contrast = 1.5F,
-                         .clumping = 0.55F,
+                         .contrast = 1.05F,
+                         .clumping = 0.6F,
                          .warp_inclination = 15 * degree,
                          .warp_angle = -38 * degree};
 // Gas above the disc, smoother, wider in velocity, and slower.
@@ -50,7 +50,7 @@ constexpr Disc halo = {.x = 57,
                        .inclination = 36 * degree,
                        .position_angle = 62 * degree,
                        .radius = 42,
-                       .scale = 17,
+                       .scale = 22,
                        .hole = 5,
                        .speed = 150,
                        .turnover = 7,
@@ -111,8 +111,8 @@ class HiGalaxy final : public Formula {
           channel_(velocity_range / static_cast<float>(n[2])),
           noise_(n[0], n[1], 1.5F * std::min(scale_, 4.0F), seed),
           seed_(seed),
-          sheets_{sheet(galaxy, 0.16F, 8, seed + 1), sheet(halo, 0.006F, 20, seed + 2),
-                  sheet(companion, 0.11F, 10, seed + 3)},
+          sheets_{sheet(galaxy, 0.05F, 8, seed + 1), sheet(halo, 0.003F, 20, seed + 2),
+                  sheet(companion, 0.06F, 10, seed + 3)},
           clouds_(clouds()) {}
 
     Description description() const override;
@@ -185,7 +185,7 @@ Blob HiGalaxy::blob(const Node& at, float peak, float width, float dispersion) c
 void HiGalaxy::add_complexes(const Disc& disc, int count, float peak, Random& random,
                              std::vector<Blob>& blobs) const {
     for (int tries = 0; count > 0 && tries < 200000; ++tries) {
-        const DiscPlace place{-1.3F * disc.scale * std::log(1 - uniform_in(random, 0, 0.98F)),
+        const DiscPlace place{disc.radius * std::sqrt(uniform_in(random, 0, 0.8F)),
                               uniform_in(random, 0, 2 * std::numbers::pi_v<float>)};
         const float inner = 1 - 0.9F * std::exp(-(place.r / disc.hole) * (place.r / disc.hole));
         const float arm = arm_strength(disc, place);
@@ -193,7 +193,7 @@ void HiGalaxy::add_complexes(const Disc& disc, int count, float peak, Random& ra
             continue;
         }
         const SkyPlace seen = appearance(disc, place);
-        const float strength = std::exp(0.8F * normal_of(random)) * std::exp(-place.r / (1.6F * disc.scale));
+        const float strength = std::exp(0.8F * normal_of(random)) * std::exp(-place.r / (2 * disc.scale));
         blobs.push_back(blob({seen.x, seen.y, seen.v + 4 * normal_of(random)}, peak * strength,
                              uniform_in(random, 0.7F, 1.6F), uniform_in(random, 4, 8)));
         --count;
@@ -219,11 +219,11 @@ void HiGalaxy::add_stream(const std::array<Node, 4>& path, int count, float peak
 std::vector<Blob> HiGalaxy::clouds() const {
     Random random(seed_ + 4);
     std::vector<Blob> blobs;
-    add_complexes(galaxy, 1500, 0.05F, random, blobs);
-    add_complexes(companion, 60, 0.03F, random, blobs);
-    add_stream({{{78, 52, 20}, {94, 66, 62}, {121, 60, 104}, {106, 33, 86}}}, 420, 0.0011F, 1.5F, 2.4F,
+    add_complexes(galaxy, 1800, 0.014F, random, blobs);
+    add_complexes(companion, 60, 0.012F, random, blobs);
+    add_stream({{{78, 52, 20}, {94, 66, 62}, {121, 60, 104}, {106, 33, 86}}}, 420, 0.0017F, 1.5F, 2.4F,
                random, blobs);
-    add_stream({{{74, 103, 80}, {66, 126, 118}, {36, 124, 92}, {17, 102, 40}}}, 420, 0.0009F, 1.5F, 3.2F,
+    add_stream({{{74, 103, 80}, {66, 126, 118}, {36, 124, 92}, {17, 102, 40}}}, 420, 0.0012F, 1.5F, 3.2F,
                random, blobs);
     return blobs;
 }

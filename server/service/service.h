@@ -10,15 +10,15 @@
 #include "common/fits/cube.h"
 #include "server/head/head.h"
 
-namespace shearwater::jobs {
+namespace shearwater::service {
 
-class Jobs {
+class Service {
   public:
     // `tell` is called from the jobs' threads and must only pass the event on.
-    Jobs(int threads, fits::Cube cube, std::function<void(head::JobEvent)> tell);
-    ~Jobs();
-    Jobs(const Jobs&) = delete;
-    Jobs& operator=(const Jobs&) = delete;
+    Service(int threads, fits::Cube cube, std::function<void(head::JobEvent)> tell);
+    ~Service();
+    Service(const Service&) = delete;
+    Service& operator=(const Service&) = delete;
 
     void perform(head::Job job);
 
@@ -33,4 +33,4 @@ class Jobs {
     boost::asio::thread_pool reading_{1};
 };
 
-}  // namespace shearwater::jobs
+}  // namespace shearwater::service

@@ -1,4 +1,4 @@
-#include "server/jobs/jobs.h"
+#include "server/service/service.h"
 
 #include <boost/asio/post.hpp>
 #include <cstring>
@@ -7,7 +7,7 @@
 #include "common/image/warp.h"
 #include "protocol/wire/convert.h"
 
-namespace shearwater::jobs {
+namespace shearwater::service {
 
 namespace pb = wire::pb;
 
@@ -33,17 +33,17 @@ std::vector<std::byte> encode(const image::Image<image::Rgba8>& picture, bool de
 
 }  // namespace
 
-Jobs::Jobs(int threads, fits::Cube cube, std::function<void(head::JobEvent)> tell)
+Service::Service(int threads, fits::Cube cube, std::function<void(head::JobEvent)> tell)
     : cube_(std::move(cube)), tell_(std::move(tell)), workers_(threads) {}
 
-Jobs::~Jobs() {
+Service::~Service() {
     frames_.stop();
     reading_.stop();
     frames_.join();
     reading_.join();
 }
 
-void Jobs::perform(head::Job job) {
+void Service::perform(head::Job job) {
     if (auto* frame = std::get_if<head::Finish>(&job)) {
         boost::asio::post(frames_, [this, work = std::move(*frame)] { finish(work); });
     } else if (auto* read = std::get_if<head::ReadVoxels>(&job)) {
@@ -51,7 +51,7 @@ void Jobs::perform(head::Job job) {
     }
 }
 
-void Jobs::finish(const head::Finish& job) {
+void Service::finish(const head::Finish& job) {
     const node::Merged merged = node::merge(job.merge);
     pb::Frame frame;
     frame.set_number(merged.frame);
@@ -76,7 +76,7 @@ void Jobs::finish(const head::Finish& job) {
     tell_(head::Finished{merged.frame, wire::message(std::move(frame), std::move(coded))});
 }
 
-void Jobs::read_voxels(const head::ReadVoxels& job) {
+void Service::read_voxels(const head::ReadVoxels& job) {
     constexpr std::int64_t most_voxels = (std::int64_t{64} << 20) / 4;
     pb::Voxels voxels;
     voxels.set_place(job.need.place());
@@ -98,4 +98,4 @@ void Jobs::read_voxels(const head::ReadVoxels& job) {
     tell_(head::VoxelsRead{wire::message(std::move(voxels), std::move(payload))});
 }
 
-}  // namespace shearwater::jobs
+}  // namespace shearwater::service

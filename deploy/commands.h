@@ -1,0 +1,18 @@
+#pragma once
+// The subcommands of `shearwater`: each adds its options to the command line and, when it was the one
+// typed, runs and gives the exit status.
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace shearwater::deploy {
+
+using Run = std::function<int()>;
+
+Run add_view(CLI::App& app);
+Run add_serve(CLI::App& app);
+Run add_snapshot(CLI::App& app);
+Run add_info(CLI::App& app);
+Run add_sample(CLI::App& app);
+
+}  // namespace shearwater::deploy

@@ -1,0 +1,37 @@
+// shearwater: the one command a person types.
+
+#include <utility>
+#include <vector>
+
+#include "deploy/commands.h"
+#include "protocol/daemon/options.h"
+
+using namespace shearwater;
+
+int main(int argc, char** argv) {
+    CLI::App app("Shearwater: distributed volume rendering of astronomical cubes.", "shearwater");
+    app.set_version_flag("--version", SHEARWATER_VERSION);
+    app.require_subcommand(1);
+    using Add = deploy::Run (*)(CLI::App&);
+    const std::vector<std::tuple<const char*, const char*, Add>> commands{
+        {"view", "show a cube in a window, on a local tree or a running server", deploy::add_view},
+        {"serve", "start a tree for a cube and keep it running", deploy::add_serve},
+        {"snapshot", "draw one picture of a cube into a PNG file", deploy::add_snapshot},
+        {"info", "say what a FITS file holds", deploy::add_info},
+        {"sample", "make a sample cube", deploy::add_sample},
+    };
+    std::vector<std::pair<CLI::App*, deploy::Run>> runs;
+    for (const auto& [name, about, add] : commands) {
+        CLI::App* const command = app.add_subcommand(name, about);
+        runs.emplace_back(command, add(*command));
+    }
+    if (const auto status = daemon::parse(app, argc, argv)) {
+        return *status;
+    }
+    for (const auto& [command, run] : runs) {
+        if (command->parsed()) {
+            return run();
+        }
+    }
+    return 2;
+}

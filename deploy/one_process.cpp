@@ -1,0 +1,109 @@
+#include "deploy/one_process.h"
+
+#include <chrono>
+
+#include "common/base/memory.h"
+#include "common/fits/cube.h"
+#include "common/image/warp.h"
+#include "common/volume/statistics.h"
+#include "renderer/shear/brick_volume.h"
+#include "renderer/shear/render.h"
+
+namespace shearwater::deploy {
+namespace {
+
+class Clock {
+  public:
+    // Seconds since this was made, or last asked.
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const std::chrono::duration<double> passed = now - last_;
+        last_ = now;
+        return passed.count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+base::Result<volume::Mapping> mapping_for(fits::Cube& source, const options::CubeOptions& cube,
+                                          base::Workers& workers, const volume::Progress& progress) {
+    volume::Mapping mapping{.stretch = cube.stretch_value(), .bits = cube.bits};
+    if (cube.range.size() == 2) {
+        mapping.lo = cube.range[0];
+        mapping.hi = cube.range[1];
+        return mapping;
+    }
+    const auto& n = source.info().n;
+    const auto half = [&](double fraction) { progress(fraction / 2); };
+    const auto histogram = volume::count_values(source, volume::whole(n), n, workers, half);
+    if (!histogram) {
+        return histogram.error();
+    }
+    const volume::Limits limits = volume::percentile_limits(*histogram, cube.percentile);
+    mapping.lo = limits.lo;
+    mapping.hi = limits.hi;
+    return mapping;
+}
+
+}  // namespace
+
+base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const ViewOptions& view,
+                                      const view::TransferFunction& tf, int threads, int repeat,
+                                      const volume::Progress& progress) {
+    base::Workers workers(threads);
+    Clock clock;
+    auto source = fits::Cube::open(cube.path, cube.open_options());
+    if (!source) {
+        return source.error();
+    }
+    const view::Lattice lattice{.n = source->info().n, .spacing = cube.spacing_value()};
+    const auto size = view.image_size();
+    const auto camera = view.camera(lattice);
+    if (!size || !camera) {
+        return size ? camera.error() : size.error();
+    }
+    double load = clock.lap();
+    const auto mapping = mapping_for(*source, cube, workers, progress);
+    if (!mapping) {
+        return mapping.error();
+    }
+    const double preprocess = clock.lap();
+    const auto second_half = [&](double fraction) { progress(0.5 + fraction / 2); };
+    const auto volume = shear::BrickVolume::load(*source, volume::whole(lattice.n), lattice.n, *mapping,
+                                                 workers, second_half);
+    if (!volume) {
+        return volume.error();
+    }
+    load += clock.lap();
+
+    Picture picture;
+    std::vector<Seconds> times;
+    for (int i = 0; i < repeat; ++i) {
+        clock.lap();
+        const auto factorisation =
+            view::factorise(*camera, *size, lattice, view::resolution(view.quality_value()));
+        shear::RenderStats stats;
+        const auto windows = shear::render(*volume, factorisation, tf, workers, &stats);
+        const double render = clock.lap();
+        picture.image = image::warp(factorisation, windows, *camera, *size, tf.background, workers);
+        const double warp = clock.lap();
+        times.push_back({.load = load,
+                         .preprocess = preprocess,
+                         .render = render,
+                         .composite = 0,
+                         .warp = warp,
+                         .encode = 0,
+                         .total = render + warp});
+        picture.samples = stats.samples;
+        picture.bricks_total = stats.bricks_total;
+        picture.bricks_empty = stats.bricks_empty;
+        picture.bricks_rendered = stats.bricks_rendered;
+    }
+    picture.seconds = median(times);
+    picture.tree = "1,1";
+    picture.memory.push_back({"shearwater", base::memory_use().peak});
+    return picture;
+}
+
+}  // namespace shearwater::deploy

@@ -1,0 +1,87 @@
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <optional>
+
+#include "deploy/commands.h"
+#include "deploy/local_tree.h"
+#include "deploy/session_secret.h"
+#include "protocol/daemon/options.h"
+#include "protocol/daemon/runtime.h"
+
+namespace shearwater::deploy {
+namespace {
+
+const std::string program = "shearwater serve";
+
+struct Flags {
+    options::CubeOptions cube;
+    options::TreeOptions tree;
+    daemon::Options common;
+};
+
+base::Status serve(const Flags& flags) {
+    if (const auto valid = flags.cube.validate(); !valid) {
+        return valid;
+    }
+    const auto chosen = choose_secret(flags.common.secret_file);
+    if (!chosen) {
+        return chosen.error();
+    }
+    auto tree = LocalTree::start({.cube = flags.cube,
+                                  .tree = flags.tree,
+                                  .threads = flags.common.threads,
+                                  .log_level = flags.common.log_level},
+                                 chosen->secret);
+    if (!tree) {
+        return tree.error();
+    }
+    std::string secret_file = flags.common.secret_file;
+    if (chosen->fresh) {
+        auto kept = keep_secret(chosen->secret, tree->address().port);
+        if (!kept) {
+            return kept.error();
+        }
+        secret_file = *std::move(kept);
+    }
+    const std::string with_secret = secret_file.empty() ? "" : " --secret-file " + secret_file;
+    std::printf("serving %s; to look at it:\n  shearwater view --connect %s%s\n", flags.cube.path.c_str(),
+                wire::to_string(tree->address()).c_str(), with_secret.c_str());
+    std::fflush(stdout);
+
+    bool server_gone = false;
+    std::optional<daemon::Runtime> runtime;
+    runtime.emplace(program, chosen->secret, [&](const wire::NetEvent&) {
+        if (!tree->keep_alive()) {
+            server_gone = true;
+            runtime->stop(1);
+        }
+    });
+    runtime->run();
+    if (chosen->fresh) {
+        std::remove(secret_file.c_str());
+    }
+    if (server_gone) {
+        return base::error(base::Code::io, "serve", "the server process ended unexpectedly");
+    }
+    return {};
+}
+
+}  // namespace
+
+Run add_serve(CLI::App& app) {
+    auto flags = std::make_shared<Flags>();
+    app.add_option("cube", flags->cube.path, "the FITS file")->required();
+    flags->tree.add_to(app);
+    flags->cube.add_to(app);
+    flags->common.add_to(app);
+    return [flags] {
+        const auto done = serve(*flags);
+        if (done) {
+            return 0;
+        }
+        return done.error().operation.empty() ? LocalTree::refused : daemon::refuse(program, done.error());
+    };
+}
+
+}  // namespace shearwater::deploy

@@ -1,0 +1,172 @@
+#include "deploy/still.h"
+
+#include "common/image/rle.h"
+
+namespace shearwater::deploy {
+
+namespace pb = wire::pb;
+
+namespace {
+
+constexpr wire::LinkId server_link{1};
+
+double seconds(wire::Time from, wire::Time to) {
+    return std::chrono::duration<double>(to - from).count();
+}
+
+base::Result<image::Image<image::Rgba8>> decode(const wire::Message& message, const view::ImageSize& size) {
+    const auto& frame = std::get<pb::Frame>(message.body);
+    if (std::cmp_not_equal(frame.width(), size.width) || std::cmp_not_equal(frame.height(), size.height)) {
+        return base::error(base::Code::corrupt, "decode a frame", "it is of another size than was asked for");
+    }
+    image::Image<image::Rgba8> picture(size.width, size.height);
+    std::vector<std::byte> inflated;
+    std::span<const std::byte> coded;
+    if (message.payload) {
+        coded = *message.payload;
+    }
+    if (frame.encoding() == pb::ENCODING_RLE_DEFLATE) {
+        auto bytes = image::inflate(coded, image::rle_bound(picture.pixels().size()));
+        if (!bytes) {
+            return bytes.error();
+        }
+        inflated = *std::move(bytes);
+        coded = inflated;
+    }
+    if (const auto decoded = image::decode_rle(coded, picture.pixels()); !decoded) {
+        return decoded.error();
+    }
+    return picture;
+}
+
+}  // namespace
+
+Still::Still(wire::Address server, ViewOptions options, view::TransferFunction tf, view::ImageSize size,
+             int repeat)
+    : server_(std::move(server)), options_(std::move(options)), repeat_(repeat) {
+    view_.size = size;
+    view_.tf = std::move(tf);
+    view_.quality = options_.quality_value();
+}
+
+std::vector<wire::NetEffect> Still::start(wire::Time now) {
+    started_ = now;
+    return {wire::Dial{server_link, server_, pb::ROLE_CLIENT}};
+}
+
+void Still::fail(base::Code code, std::string detail) {
+    if (!failed_) {
+        failed_ = base::error(code, "draw at " + wire::to_string(server_), std::move(detail));
+    }
+}
+
+std::vector<wire::NetEffect> Still::handle(const wire::NetEvent& event, wire::Time now) {
+    std::vector<wire::NetEffect> effects;
+    if (done()) {
+        return effects;
+    }
+    if (const auto* down = std::get_if<wire::LinkDown>(&event)) {
+        fail(base::Code::io, down->text);
+    } else if (const auto* received = std::get_if<wire::Received>(&event)) {
+        const wire::Body& body = received->message.body;
+        if (const auto* state = std::get_if<pb::TreeState>(&body)) {
+            on_state(*state);
+        } else if (const auto* cube = std::get_if<pb::CubeDescription>(&body)) {
+            const auto lattice = wire::lattice_from(cube->lattice());
+            if (!lattice) {
+                fail(base::Code::corrupt, lattice.error().text);
+            } else if (!lattice_) {
+                lattice_ = *lattice;
+                ask(now, effects);
+            }
+        } else if (std::holds_alternative<pb::Frame>(body)) {
+            on_frame(received->message, now, effects);
+        }
+    }
+    return effects;
+}
+
+void Still::on_state(const pb::TreeState& state) {
+    double sum = 0;
+    double renderers = 0;
+    picture_.memory.clear();
+    for (const pb::Node& node : state.nodes()) {
+        if (node.phase() == pb::PHASE_FAILED) {
+            fail(base::Code::io, base::printable(node.error(), 400));
+        }
+        if (node.role() == pb::ROLE_RENDERER) {
+            // Two passes over the voxels: the first counts, the second loads.
+            const double passes = node.phase() == pb::PHASE_READY     ? 2
+                                  : node.phase() == pb::PHASE_LOADING ? 1 + node.fraction()
+                                  : node.phase() == pb::PHASE_WAITING ? 1
+                                                                      : node.fraction();
+            sum += passes / 2;
+            renderers += 1;
+        }
+        if (node.peak_bytes() > 0) {
+            picture_.memory.push_back({base::printable(node.name()), node.peak_bytes()});
+        }
+    }
+    progress_ = renderers > 0 ? sum / renderers : 0;
+}
+
+void Still::ask(wire::Time now, std::vector<wire::NetEffect>& effects) {
+    const auto camera = options_.camera(*lattice_);
+    if (!camera) {
+        failed_ = camera.error();
+        return;
+    }
+    view_.camera = *camera;
+    ++view_.revision;
+    asked_ = now;
+    effects.emplace_back(wire::Send{server_link, wire::message(wire::to_wire(view_))});
+}
+
+void Still::on_frame(const wire::Message& message, wire::Time now, std::vector<wire::NetEffect>& effects) {
+    const auto& frame = std::get<pb::Frame>(message.body);
+    pb::FrameShown shown;
+    shown.set_number(frame.number());
+    effects.emplace_back(wire::Send{server_link, wire::message(shown)});
+    if (frame.missing_size() > 0 || frame.revision() != view_.revision) {
+        return;  // the server sends it again when it is whole
+    }
+    auto decoded = decode(message, view_.size);
+    if (!decoded) {
+        failed_ = decoded.error();
+        return;
+    }
+    const pb::LeafStats& leaves = frame.stats().leaves();
+    if (times_.empty()) {
+        load_seconds_ = seconds(started_, now) - frame.stats().warp_seconds() - leaves.render_seconds();
+        progress_ = 1;
+    }
+    picture_.image = *std::move(decoded);
+    times_.push_back({.load = load_seconds_,
+                      .preprocess = 0,
+                      .render = leaves.render_seconds(),
+                      .composite = leaves.composite_seconds(),
+                      .warp = frame.stats().warp_seconds(),
+                      .encode = frame.stats().encode_seconds(),
+                      .total = seconds(asked_, std::chrono::steady_clock::now())});
+    picture_.samples = leaves.samples();
+    picture_.bricks_total = leaves.bricks_total();
+    picture_.bricks_empty = leaves.bricks_empty();
+    picture_.bricks_rendered = leaves.bricks_rendered();
+    picture_.window_bytes = leaves.window_bytes();
+    picture_.frame_bytes = message.payload_size();
+    if (static_cast<int>(times_.size()) < repeat_) {
+        ask(now, effects);
+    } else {
+        finished_ = true;
+    }
+}
+
+base::Result<Picture> Still::take() {
+    if (failed_) {
+        return *failed_;
+    }
+    picture_.seconds = median(times_);
+    return std::move(picture_);
+}
+
+}  // namespace shearwater::deploy

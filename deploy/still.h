@@ -1,0 +1,53 @@
+#pragma once
+// A client without a window: asks a server for one view, some times over, and keeps the last picture. A
+// pure state machine, like all that speak on links.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deploy/picture.h"
+#include "deploy/view_options.h"
+#include "protocol/wire/convert.h"
+#include "protocol/wire/events.h"
+
+namespace shearwater::deploy {
+
+class Still {
+  public:
+    Still(wire::Address server, ViewOptions options, view::TransferFunction tf, view::ImageSize size,
+          int repeat);
+
+    std::vector<wire::NetEffect> start(wire::Time now);
+    std::vector<wire::NetEffect> handle(const wire::NetEvent& event, wire::Time now);
+
+    // The picture, once it is whole, or why there is none.
+    bool done() const { return finished_ || failed_.has_value(); }
+    base::Result<Picture> take();
+
+    // The share of loading done, for a progress bar; 1 once pictures come.
+    double progress() const { return progress_; }
+
+  private:
+    void on_state(const wire::pb::TreeState& state);
+    void on_frame(const wire::Message& message, wire::Time now, std::vector<wire::NetEffect>& effects);
+    void ask(wire::Time now, std::vector<wire::NetEffect>& effects);
+    void fail(base::Code code, std::string detail);
+
+    wire::Address server_;
+    ViewOptions options_;
+    wire::View view_;
+    int repeat_;
+    std::optional<view::Lattice> lattice_;
+    std::vector<Seconds> times_;
+    Picture picture_;
+    wire::Time started_{};
+    wire::Time asked_{};
+    double progress_ = 0;
+    double load_seconds_ = 0;
+    bool finished_ = false;
+    std::optional<base::Error> failed_;
+};
+
+}  // namespace shearwater::deploy

@@ -1,0 +1,79 @@
+#include "deploy/view_options.h"
+
+#include <charconv>
+
+#include "common/base/text_file.h"
+
+namespace shearwater::deploy {
+
+void ViewOptions::add_to(CLI::App& app) {
+    const std::string group = "View";
+    app.add_option("--azimuth", orbit.azimuth, "degrees about the vertical")
+        ->capture_default_str()
+        ->group(group);
+    app.add_option("--elevation", orbit.elevation, "degrees above the horizontal")
+        ->capture_default_str()
+        ->group(group);
+    app.add_option("--distance", orbit.distance, "world units from the cube's middle; else all of it is seen")
+        ->check(CLI::PositiveNumber)
+        ->group(group);
+    app.add_option("--fov", fov, "vertical field of view in degrees")->capture_default_str()->group(group);
+    app.add_flag("--parallel", parallel, "parallel projection")->group(group);
+    app.add_option("--height", height, "world height of a parallel picture; else the cube's diagonal")
+        ->check(CLI::PositiveNumber)
+        ->group(group);
+    app.add_option("--size", size, "of the picture, WIDTHxHEIGHT pixels")
+        ->capture_default_str()
+        ->group(group);
+    app.add_option("--tf", tf_file, "transfer function, a TOML file")->group(group);
+    app.add_option("--quality", quality, "intermediate pixels per pixel: half, one, one and a half")
+        ->check(CLI::IsMember({"draft", "normal", "high"}))
+        ->capture_default_str()
+        ->group(group);
+}
+
+base::Result<view::ImageSize> ViewOptions::image_size() const {
+    view::ImageSize parsed;
+    const char* const end = size.data() + size.size();
+    const auto width = std::from_chars(size.data(), end, parsed.width);
+    if (width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x') {
+        const auto rows = std::from_chars(width.ptr + 1, end, parsed.height);
+        if (rows.ec == std::errc{} && rows.ptr == end) {
+            return parsed;
+        }
+    }
+    return base::error(base::Code::invalid_argument, "--size " + size, "is not WIDTHxHEIGHT, like 512x512");
+}
+
+base::Result<view::TransferFunction> ViewOptions::transfer_function() const {
+    if (tf_file.empty()) {
+        return view::default_transfer_function();
+    }
+    constexpr std::size_t most_bytes = 1 << 20;
+    const auto text = base::read_text_file(tf_file, most_bytes);
+    if (!text) {
+        return text.error();
+    }
+    return view::transfer_function_from_toml(*text, tf_file);
+}
+
+view::Quality ViewOptions::quality_value() const {
+    return quality == "draft"  ? view::Quality::draft
+           : quality == "high" ? view::Quality::high
+                               : view::Quality::normal;
+}
+
+base::Result<view::Camera> ViewOptions::camera(const view::Lattice& lattice) const {
+    const auto pixels = image_size();
+    if (!pixels) {
+        return pixels.error();
+    }
+    const view::Camera made = view::camera_on(
+        orbit, lattice, parallel ? view::Projection::parallel : view::Projection::perspective, fov, height);
+    if (const auto valid = view::validate(made, *pixels); !valid) {
+        return valid.error();
+    }
+    return made;
+}
+
+}  // namespace shearwater::deploy

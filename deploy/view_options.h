@@ -1,0 +1,34 @@
+#pragma once
+// The options of a still picture: camera, size, transfer function, quality.
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "common/base/result.h"
+#include "common/view/camera.h"
+#include "common/view/factorisation.h"
+#include "common/view/transfer_function.h"
+
+namespace shearwater::deploy {
+
+struct ViewOptions {
+    view::Orbit orbit;
+    bool parallel = false;
+    double fov = 30;
+    double height = 0;  // parallel; 0: the cube's diagonal
+    std::string size = "512x512";
+    std::string tf_file;
+    std::string quality = "normal";
+
+    void add_to(CLI::App& app);
+
+    // Whatever can be wrong before the cube is known.
+    base::Result<view::ImageSize> image_size() const;
+    base::Result<view::TransferFunction> transfer_function() const;
+    view::Quality quality_value() const;
+    // The camera for a cube, checked.
+    base::Result<view::Camera> camera(const view::Lattice& lattice) const;
+};
+
+}  // namespace shearwater::deploy
