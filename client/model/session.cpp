@@ -80,9 +80,9 @@ void Session::on_up() {
     connection_ = Connection::connected;
     words_ = "Connected to " + wire::to_string(server_) + ".";
     described_ = false;
-    last_frame_number_ = 0;
     sent_.clear();
     answered_ = revision_;
+    before_link_ = revision_;
 }
 
 void Session::on_down(const wire::LinkDown& down, wire::Time now) {
@@ -145,13 +145,16 @@ void Session::on_tree(Tree tree, wire::Time now) {
 
 void Session::on_frame(const wire::Message& message, wire::Time now) {
     const auto& frame = std::get<pb::Frame>(message.body);
+    if (frame.revision() <= before_link_ || frame.revision() > revision_) {
+        return give_up({pb::REASON_INVALID, "frame: of a view that was not asked for"}, now);
+    }
+    pb::FrameShown shown;
+    shown.set_number(frame.number());
+    effects_.push_back(wire::Send{link_, wire::message(std::move(shown))});
     const auto sent = std::find_if(sent_.begin(), sent_.end(),
                                    [&](const Sent& view) { return view.revision == frame.revision(); });
     if (sent == sent_.end()) {
-        return give_up({pb::REASON_INVALID, "frame: of a view that was not asked for"}, now);
-    }
-    if (frame.number() <= last_frame_number_) {
-        return give_up({pb::REASON_INVALID, "frame: its number does not rise"}, now);
+        return;  // overtaken by a newer one
     }
     auto missing = missing_from(frame);
     if (!missing) {
@@ -161,15 +164,11 @@ void Session::on_frame(const wire::Message& message, wire::Time now) {
     if (!pixels) {
         return give_up(pixels.error(), now);
     }
-    last_frame_number_ = frame.number();
-    effects_.push_back(wire::Send{link_, wire::message([&] {
-                                      pb::FrameShown shown;
-                                      shown.set_number(frame.number());
-                                      return shown;
-                                  }())});
     const Seconds latency = now - sent->at;
     const double server_seconds = std::max(0.0, frame.stats().total_seconds());
-    meter_.count(now, latency, message.payload_size());
+    if (sent->revision > answered_) {
+        meter_.count(now, latency, message.payload_size());
+    }
     if (sent->revision == revision_ && sent->revision == answered_ + 1) {
         notice_link_speed(message.payload_size(), latency.count() - server_seconds);
     }

@@ -101,7 +101,7 @@ class Session {
     wire::LinkId link_{0};
     std::chrono::milliseconds retry_after_ = first_retry;
     wire::Time retry_at_{};
-    std::uint64_t last_frame_number_ = 0;  // on this link
+    std::uint64_t before_link_ = 0;  // the newest revision sent before this link came up
 
     // What the server told.
     std::optional<Cube> cube_;

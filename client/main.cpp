@@ -1,0 +1,103 @@
+// shearwater-client: the window on a running server.
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+
+#include "client/view/app.h"
+
+namespace {
+
+using namespace shearwater;
+
+constexpr int unusable = 2;
+
+struct Options {
+    std::string connect, secret_file, tf_file, screenshot;
+    std::string size = "1280x800";
+    ui::WindowOptions window;
+};
+
+std::string check_size(const std::string& text) {
+    int width = 0, height = 0;
+    char rest = 0;
+    const bool good = std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) == 2 && width >= 320 &&
+                      height >= 240 && width <= 8192 && height <= 8192;
+    return good ? "" : "the size should read WIDTHxHEIGHT, from 320x240 to 8192x8192";
+}
+
+void declare(CLI::App& app, Options& options) {
+    app.add_option("--connect", options.connect, "The server, HOST:PORT")->required();
+    app.add_option(
+        "--secret-file", options.secret_file,
+        fmt::format("A file of mode 0600 with the server's secret; else ${}", link::Secret::variable));
+    app.add_option("--tf", options.tf_file, "Begin with the transfer function of this TOML file");
+    app.add_option("--size", options.size, "The window's size")->check(check_size)->capture_default_str();
+    app.add_option("--scale", options.window.scale, "Pixels per nominal pixel; else as the display says")
+        ->check(CLI::Range(0.5, 4.0));
+    app.add_option("--screenshot", options.screenshot,
+                   "Write the window to this PNG file once the first whole picture is seen, and end");
+}
+
+base::Result<view::TransferFunction> read_tf(const std::string& path) {
+    if (path.empty()) {
+        return view::default_transfer_function();
+    }
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (!file) {
+        return base::error(base::Code::io, "read transfer function " + path, "the file cannot be read");
+    }
+    return view::transfer_function_from_toml(text, path);
+}
+
+base::Status run(Options options) {
+    std::sscanf(options.size.c_str(), "%dx%d", &options.window.width, &options.window.height);
+    auto tf = read_tf(options.tf_file);
+    if (!tf) {
+        return tf.error();
+    }
+    const auto server = wire::parse_address(options.connect, 0);
+    if (!server) {
+        return server.error();
+    }
+    if (server->port == 0) {
+        return base::error(base::Code::invalid_argument, "address '" + options.connect + "'",
+                           "the port is missing");
+    }
+    auto secret = link::Secret::find(options.secret_file);
+    if (!secret) {
+        return secret.error();
+    }
+    auto window = ui::Window::open(options.window);
+    if (!window) {
+        return window.error();
+    }
+    ui::Network network(*server, std::move(*secret), ui::Window::wake);
+    ui::App app(**window, network, {.tf = std::move(*tf), .screenshot = options.screenshot});
+    return app.run();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Options options;
+    CLI::App app("The window on a running Shearwater server", "shearwater-client");
+    declare(app, options);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp& asked) {
+        return app.exit(asked);
+    } catch (const CLI::ParseError& fault) {
+        fmt::print(stderr, "shearwater-client: {}\n", fault.what());
+        return unusable;
+    }
+    if (const auto status = run(options); !status) {
+        fmt::print(stderr, "shearwater-client: {}\n", status.error().message());
+        return unusable;
+    }
+    return 0;
+}

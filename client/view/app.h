@@ -1,0 +1,42 @@
+#pragma once
+// The window's thread: collects what the network has, draws, and leaves wishes.
+
+#include <string>
+
+#include "client/view/desk.h"
+#include "client/view/network.h"
+#include "client/view/window.h"
+
+namespace shearwater::ui {
+
+struct AppOptions {
+    view::TransferFunction tf = view::default_transfer_function();
+    std::string screenshot;  // a file to write the window to once a whole high picture is seen; then it ends
+};
+
+class App {
+  public:
+    App(Window& window, Network& network, AppOptions options);
+
+    // Until the window is closed, or the screenshot is taken or has become impossible.
+    base::Status run();
+
+  private:
+    double patience() const;
+    void collect();
+    void widgets();
+    void keys();
+    void send_wish();
+    bool is_settled() const;
+
+    Window& window_;
+    Network& network_;
+    const AppOptions options_;
+    Desk desk_;
+    model::Wish sent_;
+    std::optional<view::Lattice> known_lattice_;
+    double active_until_ = 0;  // seconds of ImGui's clock
+    int settled_passes_ = 0;
+};
+
+}  // namespace shearwater::ui

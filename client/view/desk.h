@@ -1,0 +1,36 @@
+#pragma once
+// What the widgets draw from and change in one pass; the app turns the changes into wishes.
+
+#include <string>
+
+#include "client/model/session.h"
+#include "client/view/texture.h"
+#include "client/view/theme.h"
+
+namespace shearwater::ui {
+
+struct Desk {
+    Desk(theme::Fonts fonts_in, float scale_in) : fonts(fonts_in), scale(scale_in) {}
+
+    const theme::Fonts fonts;
+    const float scale;
+
+    // From the network.
+    model::Status status;
+    Texture picture;
+    std::uint64_t picture_revision = 0;
+    view::Quality picture_quality = view::Quality::normal;
+
+    // What the person sets.
+    model::Wish wish;
+    bool dragging = false;  // something is held down while it changes the wish
+    bool retry = false;     // asked to dial now
+    bool panel = true;
+    int ramp_end = -1;  // the ramp's end being dragged: 0, 1, or none
+
+    float px(float nominal) const { return nominal * scale; }
+    bool has_cube() const { return status.cube.has_value(); }
+    const view::Lattice& lattice() const { return status.cube->lattice; }
+};
+
+}  // namespace shearwater::ui

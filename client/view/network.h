@@ -1,0 +1,57 @@
+#pragma once
+// The session and its link, on a thread of their own. The window's thread never waits for them: it leaves
+// wishes and collects what came.
+
+#include <boost/asio/io_context.hpp>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "client/model/session.h"
+#include "protocol/link/hub.h"
+
+namespace shearwater::ui {
+
+class Network {
+  public:
+    // Dials at once. `wake` is called from the network's thread when there is something to collect.
+    Network(const wire::Address& server, link::Secret secret, std::function<void()> wake);
+    ~Network();  // says goodbye
+    Network(const Network&) = delete;
+    Network& operator=(const Network&) = delete;
+
+    // The newest wish wins.
+    void want(const model::Wish& wish, model::Change change);
+    void retry();
+
+    // The newest status and picture, each given once.
+    struct Mail {
+        std::optional<model::Status> status;
+        std::optional<model::Picture> picture;
+    };
+    Mail collect();
+
+  private:
+    struct WishMail {
+        model::Wish wish;
+        model::Change change;
+    };
+
+    void on_event(const wire::NetEvent& event);
+    void take_wish();
+    void carry_out();
+
+    boost::asio::io_context io_{1};
+    std::function<void()> wake_;
+    model::Session session_;  // the network thread's
+    link::Hub hub_;           // the network thread's
+
+    std::mutex mutex_;
+    std::optional<WishMail> wish_;
+    Mail mail_;
+
+    std::jthread thread_;
+};
+
+}  // namespace shearwater::ui

@@ -1,0 +1,10 @@
+#pragma once
+// What has to be said over the picture: the link is gone, the cube is loading, parts are missing.
+
+#include "client/view/desk.h"
+
+namespace shearwater::ui {
+
+void notices(const Desk& desk, ImVec2 from, ImVec2 size);
+
+}  // namespace shearwater::ui

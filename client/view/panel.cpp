@@ -1,0 +1,200 @@
+#include "client/view/panel.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "client/model/look.h"
+#include "client/view/ramp_editor.h"
+#include "client/view/tree_list.h"
+#include "client/view/widgets.h"
+
+namespace shearwater::ui {
+
+namespace {
+
+using model::Connection;
+
+ImU32 colour_of_link(Connection connection) {
+    switch (connection) {
+        case Connection::connected:
+            return theme::good;
+        case Connection::connecting:
+            return theme::busy;
+        case Connection::waiting:
+            return theme::busy;
+        case Connection::refused:
+            return theme::bad;
+    }
+    return theme::bad;
+}
+
+const char* word_for_link(Connection connection) {
+    switch (connection) {
+        case Connection::connected:
+            return "connected";
+        case Connection::connecting:
+            return "connecting";
+        case Connection::waiting:
+            return "reconnecting";
+        case Connection::refused:
+            return "refused";
+    }
+    return "";
+}
+
+constexpr const char* help =
+    "Left drag          turn\n"
+    "Right drag         move (or Shift and left drag)\n"
+    "Wheel              zoom at the cursor\n"
+    "Double click, R    reset the view\n"
+    "P                  perspective or parallel\n"
+    "C, Shift C         next or previous colour map\n"
+    "I                  reverse the colour map\n"
+    "Arrows, + -        turn and zoom\n"
+    "Tab                hide this panel\n"
+    "Ctrl Q             quit";
+
+void header(Desk& desk) {
+    ImGui::PushFont(desk.fonts.bold);
+    ImGui::TextUnformatted("Shearwater");
+    ImGui::PopFont();
+    const float side = ImGui::GetFrameHeight();
+    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - side);
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() - desk.px(2));
+    ImGui::Button("?", {side, side});
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("%s", help);
+    }
+    dot(desk, colour_of_link(desk.status.connection));
+    text(theme::text, word_for_link(desk.status.connection));
+    if (desk.status.connection == Connection::waiting || desk.status.connection == Connection::refused) {
+        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - desk.px(92));
+        desk.retry = ImGui::SmallButton("connect now");
+    }
+}
+
+void cube_section(const Desk& desk) {
+    section(desk, "CUBE");
+    if (!desk.has_cube()) {
+        text(theme::muted, "not known yet");
+        return;
+    }
+    const model::Cube& cube = *desk.status.cube;
+    const auto& n = cube.lattice.n;
+    text(theme::text, cube.object.empty() ? cube.name : cube.object);
+    if (!cube.object.empty()) {
+        small_text(desk, theme::muted, cube.name);
+    }
+    small_text(desk, theme::muted,
+               fmt::format("{} \u00d7 {} \u00d7 {} voxels, {} bits", n[0], n[1], n[2], cube.mapping.bits));
+    small_text(desk, theme::muted,
+               fmt::format("{} to {} {}, {}", value_text(cube.mapping.lo), value_text(cube.mapping.hi),
+                           cube.unit, volume::name(cube.mapping.stretch)));
+}
+
+void camera_section(Desk& desk) {
+    section(desk, "CAMERA");
+    model::Viewpoint& viewpoint = desk.wish.viewpoint;
+    const bool parallel = viewpoint.projection == view::Projection::parallel;
+    if (switch_between(desk, "Perspective", "Parallel", parallel)) {
+        model::toggle_projection(viewpoint);
+    }
+    ImGui::BeginDisabled(parallel || !desk.has_cube());
+    float fov = static_cast<float>(viewpoint.fov);
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    if (ImGui::SliderFloat("##fov", &fov, model::min_fov, model::max_fov, "field of view %.0f\u00b0",
+                           ImGuiSliderFlags_AlwaysClamp)) {
+        model::set_fov(viewpoint, static_cast<double>(fov), desk.lattice());
+        desk.dragging = ImGui::IsItemActive();
+    }
+    ImGui::EndDisabled();
+    if (ImGui::Button("Reset view", {-FLT_MIN, 0})) {
+        viewpoint = model::Viewpoint{.orbit = {}, .projection = viewpoint.projection};
+    }
+}
+
+void choose_map(Desk& desk, const std::string& name) {
+    if (auto pins = view::colour_map(name)) {
+        desk.wish.tf.colour_pins = std::move(*pins);
+    }
+}
+
+void map_choice(Desk& desk, const std::string& current, const std::string& suffix) {
+    const float row = ImGui::GetTextLineHeight();
+    const float label = desk.px(84);
+    const std::string shown = current.empty() ? "own pins" : current;
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    if (!ImGui::BeginCombo("##map", shown.c_str(), ImGuiComboFlags_HeightLargest)) {
+        return;
+    }
+    for (const std::string& name : view::colour_map_names()) {
+        if (ImGui::Selectable(("##" + name).c_str(), name + suffix == current, 0, {0, row})) {
+            choose_map(desk, name + suffix);
+        }
+        const ImVec2 from = ImGui::GetItemRectMin();
+        const ImVec2 to = ImGui::GetItemRectMax();
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        list.AddText({from.x + desk.px(4), from.y + (to.y - from.y - row) / 2}, theme::text, name.c_str());
+        draw_gradient(list, view::colour_map(name + suffix).value(), {from.x + label, from.y + desk.px(3)},
+                      {to.x - desk.px(4), to.y - desk.px(3)}, 0);
+    }
+    ImGui::EndCombo();
+}
+
+void colour_section(Desk& desk) {
+    section(desk, "TRANSFER FUNCTION");
+    const std::string current = model::map_name_of(desk.wish.tf.colour_pins);
+    bool reversed = current.ends_with("-r");
+    map_choice(desk, current, reversed ? "-r" : "");
+    ramp_editor(desk);
+    ImGui::BeginDisabled(current.empty());
+    if (ImGui::Checkbox("reversed colours", &reversed)) {
+        choose_map(desk, reversed ? current + "-r" : current.substr(0, current.size() - 2));
+    }
+    ImGui::EndDisabled();
+}
+
+void figure(const Desk& desk, const std::string& value, const char* unit, float x) {
+    ImGui::SetCursorPosX(x);
+    ImGui::BeginGroup();
+    ImGui::PushFont(desk.fonts.bold);
+    ImGui::TextUnformatted(value.c_str());
+    ImGui::PopFont();
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() - desk.px(5));
+    small_text(desk, theme::muted, unit);
+    ImGui::EndGroup();
+}
+
+void speed_section(const Desk& desk) {
+    section(desk, "SPEED");
+    const model::Rates& rates = desk.status.rates;
+    const bool any = desk.status.frame.has_value();
+    const float left = ImGui::GetCursorPosX();
+    const float step = ImGui::GetContentRegionAvail().x / 3;
+    const bool moving = rates.frames_per_second > 0;
+    figure(desk, moving ? fmt::format("{:.1f}", rates.frames_per_second) : "idle", "frames/s", left);
+    ImGui::SameLine();
+    figure(desk, any ? fmt::format("{:.0f} ms", rates.latency_seconds * 1000) : "-", "latency", left + step);
+    ImGui::SameLine();
+    figure(desk, any ? bytes_text(rates.bytes_per_frame) : "-", "a frame", left + 2 * step);
+}
+
+}  // namespace
+
+void panel(Desk& desk, ImVec2 from, ImVec2 size) {
+    ImGui::SetNextWindowPos(from);
+    ImGui::SetNextWindowSize(size);
+    ImGui::Begin("panel", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoNavInputs | ImGuiWindowFlags_NoBringToFrontOnFocus);
+    header(desk);
+    cube_section(desk);
+    camera_section(desk);
+    colour_section(desk);
+    speed_section(desk);
+    tree_list(desk);
+    ImGui::End();
+}
+
+}  // namespace shearwater::ui

@@ -1,0 +1,153 @@
+#include "client/view/picture_area.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "client/view/notices.h"
+#include "client/view/widgets.h"
+
+namespace shearwater::ui {
+
+namespace {
+
+constexpr ImGuiWindowFlags bare = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                  ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
+                                  ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+// The display's pixels of a size in window coordinates, brought within what may be asked for.
+view::ImageSize picture_size(ImVec2 size) {
+    constexpr int max_side = 8192;
+    constexpr double max_area = double{1 << 25};
+    const ImVec2 per_point = ImGui::GetIO().DisplayFramebufferScale;
+    double width = std::clamp(std::floor(double{size.x} * double{per_point.x}), 16.0, double{max_side});
+    double height = std::clamp(std::floor(double{size.y} * double{per_point.y}), 16.0, double{max_side});
+    const double shrink = std::min(1.0, std::sqrt(max_area / (width * height)));
+    width = std::floor(width * shrink);
+    height = std::floor(height * shrink);
+    return {static_cast<int>(width), static_cast<int>(height)};
+}
+
+// The last picture, kept in proportion where its size is not that of the area (yet).
+void draw_picture(const Desk& desk, ImVec2 from, ImVec2 size) {
+    if (desk.picture.empty()) {
+        return;
+    }
+    const float width = static_cast<float>(desk.picture.width());
+    const float height = static_cast<float>(desk.picture.height());
+    const float fit = std::min(size.x / width, size.y / height);
+    const ImVec2 shown = std::abs(size.x - width * fit) < 2 && std::abs(size.y - height * fit) < 2
+                             ? size
+                             : ImVec2{std::round(width * fit), std::round(height * fit)};
+    const ImVec2 corner{from.x + std::floor((size.x - shown.x) / 2),
+                        from.y + std::floor((size.y - shown.y) / 2)};
+    const bool live = desk.status.connection == model::Connection::connected;
+    const ImU32 tint = live ? IM_COL32_WHITE : IM_COL32(150, 150, 150, 255);
+    ImGui::GetWindowDrawList()->AddImage(
+        reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(desk.picture.id())), corner,
+        {corner.x + shown.x, corner.y + shown.y}, {0, 0}, {1, 1}, tint);
+}
+
+void drag(Desk& desk, float to_pixels) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.MouseDelta.x == 0 && io.MouseDelta.y == 0) {
+        return;
+    }
+    const double dx = static_cast<double>(io.MouseDelta.x * to_pixels);
+    const double dy = static_cast<double>(io.MouseDelta.y * to_pixels);
+    const bool pans =
+        io.MouseDown[ImGuiMouseButton_Right] || io.MouseDown[ImGuiMouseButton_Middle] || io.KeyShift;
+    if (pans) {
+        model::pan(desk.wish.viewpoint, dx, dy, desk.wish.size, desk.lattice());
+    } else {
+        model::drag_orbit(desk.wish.viewpoint, dx, dy, desk.wish.size);
+    }
+    desk.dragging = true;
+}
+
+void wheel(Desk& desk, ImVec2 from, float to_pixels) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.MouseWheel == 0) {
+        return;
+    }
+    constexpr double per_notch = 0.88;
+    model::zoom(desk.wish.viewpoint, std::pow(per_notch, static_cast<double>(io.MouseWheel)),
+                static_cast<double>((io.MousePos.x - from.x) * to_pixels),
+                static_cast<double>((io.MousePos.y - from.y) * to_pixels), desk.wish.size, desk.lattice());
+    desk.dragging = true;
+}
+
+void mouse(Desk& desk, ImVec2 from, ImVec2 size) {
+    ImGui::SetCursorScreenPos(from);
+    ImGui::InvisibleButton("picture", size,
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                               ImGuiButtonFlags_MouseButtonMiddle);
+    if (!desk.has_cube()) {
+        return;
+    }
+    const float to_pixels = static_cast<float>(desk.wish.size.width) / size.x;
+    if (ImGui::IsItemActive()) {
+        drag(desk, to_pixels);
+    }
+    if (ImGui::IsItemHovered()) {
+        wheel(desk, from, to_pixels);
+        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+            desk.wish.viewpoint = model::Viewpoint{.orbit = {}, .projection = desk.wish.viewpoint.projection};
+        }
+    }
+}
+
+std::string view_text(const Desk& desk) {
+    const model::Viewpoint& viewpoint = desk.wish.viewpoint;
+    std::string words =
+        fmt::format("az {:.0f}\u00b0  el {:.0f}\u00b0", viewpoint.orbit.azimuth, viewpoint.orbit.elevation);
+    if (!desk.picture.empty()) {
+        constexpr const char* qualities[] = {"draft", "normal", "high"};
+        words += fmt::format("   {} \u00d7 {}   {}", desk.picture.width(), desk.picture.height(),
+                             qualities[static_cast<int>(desk.picture_quality)]);
+    }
+    return words;
+}
+
+}  // namespace
+
+void picture_area(Desk& desk, ImVec2 from, ImVec2 size) {
+    const view::ImageSize pixels = picture_size(size);
+    desk.dragging = desk.dragging || (pixels != desk.wish.size && !desk.picture.empty());
+    desk.wish.size = pixels;
+    ImGui::SetNextWindowPos(from);
+    ImGui::SetNextWindowSize(size);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::backdrop);
+    ImGui::Begin("picture area", nullptr, bare | ImGuiWindowFlags_NoScrollWithMouse);
+    draw_picture(desk, from, size);
+    mouse(desk, from, size);
+    notices(desk, from, size);
+    ImGui::End();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar();
+}
+
+void status_line(const Desk& desk, ImVec2 from, ImVec2 size) {
+    ImGui::SetNextWindowPos(from);
+    ImGui::SetNextWindowSize(size);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {desk.px(12), 0});
+    ImGui::Begin("status", nullptr, bare);
+    ImGui::PushFont(desk.fonts.small);
+    const float y = from.y + (size.y - ImGui::GetTextLineHeight()) / 2;
+    const std::string view = view_text(desk);
+    const float view_x = from.x + size.x - desk.px(12) - ImGui::CalcTextSize(view.c_str()).x;
+    ImGui::SetCursorScreenPos({from.x + desk.px(12), y});
+    ImGui::PushClipRect(from, {view_x - desk.px(12), from.y + size.y}, true);
+    text(theme::muted, desk.status.words);
+    ImGui::PopClipRect();
+    ImGui::SetCursorScreenPos({view_x, y});
+    text(theme::muted, view);
+    ImGui::PopFont();
+    ImGui::End();
+    ImGui::PopStyleVar(2);
+}
+
+}  // namespace shearwater::ui

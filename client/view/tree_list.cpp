@@ -1,0 +1,122 @@
+#include "client/view/tree_list.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "client/view/widgets.h"
+
+namespace shearwater::ui {
+
+namespace {
+
+namespace pb = wire::pb;
+
+ImU32 colour_of_phase(pb::Phase phase) {
+    switch (phase) {
+        case pb::PHASE_VACANT:
+            return theme::vacant;
+        case pb::PHASE_READY:
+            return theme::good;
+        case pb::PHASE_FAILED:
+            return theme::bad;
+        default:
+            return theme::busy;
+    }
+}
+
+const char* word_for_phase(pb::Phase phase) {
+    switch (phase) {
+        case pb::PHASE_VACANT:
+            return "vacant";
+        case pb::PHASE_JOINED:
+            return "joined";
+        case pb::PHASE_COUNTING:
+            return "counting";
+        case pb::PHASE_WAITING:
+            return "waiting";
+        case pb::PHASE_LOADING:
+            return "loading";
+        case pb::PHASE_READY:
+            return "ready";
+        case pb::PHASE_FAILED:
+            return "failed";
+        default:
+            return "";
+    }
+}
+
+const char* word_for_role(pb::Role role) {
+    switch (role) {
+        case pb::ROLE_RENDERER:
+            return "renderer";
+        case pb::ROLE_COMPOSITOR:
+            return "compositor";
+        default:
+            return "node";
+    }
+}
+
+void tooltip(const model::Node& node) {
+    const std::string memory =
+        node.memory_bytes > 0 ? bytes_text(static_cast<double>(node.memory_bytes)) : "-";
+    ImGui::SetTooltip("%s, place %u\nbox %s\nmemory %s%s%s", word_for_role(node.role), node.place,
+                      volume::to_string(node.box).c_str(), memory.c_str(), node.error.empty() ? "" : "\n",
+                      node.error.c_str());
+}
+
+void node_line(const Desk& desk, const model::Node& node) {
+    const float line_start = ImGui::GetCursorScreenPos().y;
+    const float indent = desk.px(12) * static_cast<float>(std::min(node.depth, 8));
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + indent);
+    dot(desk, colour_of_phase(node.phase));
+    const std::string name =
+        node.name.empty() ? fmt::format("{} {}", word_for_role(node.role), node.place) : node.name;
+    const float right = ImGui::GetWindowContentRegionMax().x;
+    const float column = desk.px(76);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float name_end = ImGui::GetWindowPos().x + right - column - desk.px(6);
+    ImGui::PushClipRect({at.x, at.y}, {name_end, at.y + ImGui::GetTextLineHeight()}, true);
+    text(node.phase == pb::PHASE_VACANT ? theme::muted : theme::text, name);
+    ImGui::PopClipRect();
+    ImGui::SameLine(right - column);
+    const bool under_way = node.phase == pb::PHASE_COUNTING || node.phase == pb::PHASE_LOADING;
+    if (under_way) {
+        ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetTextLineHeight() / 2 - desk.px(2));
+        progress_line(desk, node.fraction, theme::busy, column);
+    } else {
+        text(node.phase == pb::PHASE_FAILED ? theme::bad : theme::muted, word_for_phase(node.phase));
+    }
+    const ImVec2 left_top{ImGui::GetWindowPos().x, line_start};
+    if (ImGui::IsWindowHovered() &&
+        ImGui::IsMouseHoveringRect(left_top, {left_top.x + right, line_start + ImGui::GetTextLineHeight()})) {
+        tooltip(node);
+    }
+}
+
+}  // namespace
+
+void tree_list(const Desk& desk) {
+    section(desk, "TREE");
+    const model::Tree& tree = desk.status.tree;
+    if (tree.nodes.empty()) {
+        text(theme::muted, "not known yet");
+        return;
+    }
+    small_text(desk, theme::muted,
+               fmt::format("{} nodes, {} ready", tree.nodes.size(), tree.in_phase(pb::PHASE_READY)));
+    const float room = ImGui::GetContentRegionAvail().y;
+    ImGui::BeginChild("tree", {0, std::max(room, desk.px(90))}, false);
+    ImGui::PushFont(desk.fonts.small);
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(tree.nodes.size()), ImGui::GetTextLineHeightWithSpacing());
+    while (clipper.Step()) {
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            node_line(desk, tree.nodes[static_cast<std::size_t>(i)]);
+        }
+    }
+    ImGui::PopFont();
+    ImGui::EndChild();
+}
+
+}  // namespace shearwater::ui

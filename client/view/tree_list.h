@@ -1,0 +1,11 @@
+#pragma once
+// The tree's nodes, each with the phase it is in.
+
+#include "client/view/desk.h"
+
+namespace shearwater::ui {
+
+// Takes the rest of the panel.
+void tree_list(const Desk& desk);
+
+}  // namespace shearwater::ui

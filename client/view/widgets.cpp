@@ -1,0 +1,106 @@
+#include "client/view/widgets.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace shearwater::ui {
+
+std::string bytes_text(double bytes) {
+    for (const char* unit : {"B", "kB", "MB", "GB"}) {
+        if (bytes < 999.5) {
+            return fmt::format("{:.{}f} {}", bytes, bytes < 9.95 && *unit != 'B' ? 1 : 0, unit);
+        }
+        bytes /= 1000;
+    }
+    return fmt::format("{:.1f} TB", bytes);
+}
+
+std::string value_text(double value) {
+    return fmt::format("{:.3g}", value);
+}
+
+void text(ImU32 colour, const std::string& text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
+    ImGui::PopStyleColor();
+}
+
+void small_text(const Desk& desk, ImU32 colour, const std::string& words) {
+    ImGui::PushFont(desk.fonts.small);
+    text(colour, words);
+    ImGui::PopFont();
+}
+
+void section(const Desk& desk, const char* title) {
+    ImGui::Dummy({0, desk.px(5)});
+    small_text(desk, theme::muted, title);
+    const ImVec2 after = ImGui::GetItemRectMax();
+    const float y = (ImGui::GetItemRectMin().y + after.y) / 2;
+    const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
+    ImGui::GetWindowDrawList()->AddLine({after.x + desk.px(8), y}, {right, y}, theme::line);
+}
+
+void dot(const Desk& desk, ImU32 colour) {
+    const float height = ImGui::GetTextLineHeight();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float radius = desk.px(4);
+    ImGui::GetWindowDrawList()->AddCircleFilled({at.x + radius, at.y + height * 0.55F}, radius, colour, 16);
+    ImGui::Dummy({2 * radius, height});
+    ImGui::SameLine();
+}
+
+bool switch_between(const Desk& desk, const char* first, const char* second, bool second_holds) {
+    const float width = (ImGui::GetContentRegionAvail().x - desk.px(4)) / 2;
+    const auto half = [&](const char* label, bool holds) {
+        if (holds) {
+            ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32(50, 84, 132, 255));
+            ImGui::PushStyleColor(ImGuiCol_ButtonHovered, IM_COL32(50, 84, 132, 255));
+        }
+        const bool pressed = ImGui::Button(label, {width, 0});
+        if (holds) {
+            ImGui::PopStyleColor(2);
+        }
+        return pressed && !holds;
+    };
+    bool pressed = half(first, !second_holds);
+    ImGui::SameLine(0, desk.px(4));
+    pressed = half(second, second_holds) || pressed;
+    return pressed;
+}
+
+void progress_line(const Desk& desk, double fraction, ImU32 colour, float width) {
+    const float height = desk.px(4);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float done = width * static_cast<float>(std::clamp(fraction, 0.0, 1.0));
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(at, {at.x + width, at.y + height}, theme::line, height / 2);
+    if (done >= height) {
+        list.AddRectFilled(at, {at.x + done, at.y + height}, colour, height / 2);
+    }
+    ImGui::Dummy({width, height});
+}
+
+void draw_gradient(ImDrawList& list, const std::vector<view::ColourPin>& pins, ImVec2 from, ImVec2 to,
+                   float rounding) {
+    view::TransferFunction tf;
+    tf.colour_pins = pins;
+    constexpr int steps = 48;
+    const auto x = [&](int i) {
+        return std::round(from.x + (to.x - from.x) * static_cast<float>(i) / steps);
+    };
+    for (int i = 0; i < steps; ++i) {
+        const ImU32 left = colour_of(tf.colour(static_cast<double>(i) / steps));
+        const ImU32 right = colour_of(tf.colour(static_cast<double>(i + 1) / steps));
+        list.AddRectFilledMultiColor({x(i), from.y}, {x(i + 1), to.y}, left, right, right, left);
+    }
+    list.AddRect(from, to, theme::line, rounding);
+}
+
+ImU32 colour_of(const view::Rgb& rgb, double alpha) {
+    return ImGui::ColorConvertFloat4ToU32({static_cast<float>(rgb.r), static_cast<float>(rgb.g),
+                                           static_cast<float>(rgb.b), static_cast<float>(alpha)});
+}
+
+}  // namespace shearwater::ui

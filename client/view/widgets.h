@@ -1,0 +1,33 @@
+#pragma once
+// Small things that the panel and the picture are made of.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "client/view/desk.h"
+
+namespace shearwater::ui {
+
+// "1.2 MB", "310 kB", "17 B".
+std::string bytes_text(double bytes);
+// A physical value in a few characters.
+std::string value_text(double value);
+
+void text(ImU32 colour, const std::string& text);
+void small_text(const Desk& desk, ImU32 colour, const std::string& text);
+// The heading of a section of the panel.
+void section(const Desk& desk, const char* title);
+// A filled circle of the line's height, where the cursor is; the next item follows on the same line.
+void dot(const Desk& desk, ImU32 colour);
+// Two buttons side by side, one of which holds. True when the other was pressed.
+bool switch_between(const Desk& desk, const char* first, const char* second, bool second_holds);
+// A share done, thin.
+void progress_line(const Desk& desk, double fraction, ImU32 colour, float width);
+// The pins' colours from left to right.
+void draw_gradient(ImDrawList& list, const std::vector<view::ColourPin>& pins, ImVec2 from, ImVec2 to,
+                   float rounding);
+
+ImU32 colour_of(const view::Rgb& rgb, double alpha = 1);
+
+}  // namespace shearwater::ui

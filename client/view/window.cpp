@@ -1,0 +1,117 @@
+#include "client/view/window.h"
+
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+
+#include <algorithm>
+
+namespace shearwater::ui {
+
+namespace {
+
+base::Error failed() {
+    const char* text = nullptr;
+    glfwGetError(&text);
+    return base::error(base::Code::unsupported, "open the window",
+                       text != nullptr ? text : "no reason given");
+}
+
+float display_scale(GLFWwindow* window) {
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(window, &x, &y);
+    // Where a window's pixels are larger than the display's, ImGui already draws in the larger ones.
+    int points = 1, pixels = 1, ignored = 0;
+    glfwGetWindowSize(window, &points, &ignored);
+    glfwGetFramebufferSize(window, &pixels, &ignored);
+    const float per_point = points > 0 ? static_cast<float>(pixels) / static_cast<float>(points) : 1.0F;
+    return std::clamp(std::max(x, y) / per_point, 0.5F, 4.0F);
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
+    if (glfwInit() == GLFW_FALSE) {
+        return failed();
+    }
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 2);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    GLFWwindow* window = glfwCreateWindow(options.width, options.height, "Shearwater", nullptr, nullptr);
+    if (window == nullptr) {
+        base::Error error = failed();
+        glfwTerminate();
+        return error;
+    }
+    glfwSetWindowSizeLimits(window, 480, 320, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    const float scale = options.scale > 0 ? options.scale : display_scale(window);
+    return std::unique_ptr<Window>(new Window(window, scale));
+}
+
+Window::Window(GLFWwindow* window, float scale) : window_(window), scale_(scale) {
+    glfwMakeContextCurrent(window_);
+    glfwSwapInterval(1);
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    fonts_ = theme::apply(scale_);
+    ImGui_ImplGlfw_InitForOpenGL(window_, true);
+    ImGui_ImplOpenGL3_Init("#version 150");
+}
+
+Window::~Window() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+    glfwDestroyWindow(window_);
+    glfwTerminate();
+}
+
+bool Window::is_closing() const {
+    return glfwWindowShouldClose(window_) != GLFW_FALSE;
+}
+void Window::close() {
+    glfwSetWindowShouldClose(window_, GLFW_TRUE);
+}
+void Window::wake() {
+    glfwPostEmptyEvent();
+}
+
+void Window::begin(double wait_seconds) {
+    glfwWaitEventsTimeout(wait_seconds);
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+}
+
+void Window::draw() {
+    ImGui::Render();
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window_, &width, &height);
+    const ImVec4 clear = ImGui::ColorConvertU32ToFloat4(theme::backdrop);
+    glViewport(0, 0, width, height);
+    glClearColor(clear.x, clear.y, clear.z, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+// The card's rows begin at the bottom, ours at the top.
+image::Image<image::Rgba8> Window::read_pixels() const {
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window_, &width, &height);
+    image::Image<image::Rgba8> pixels(std::max(width, 1), std::max(height, 1));
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.pixels().data());
+    for (int y = 0; y < pixels.height() / 2; ++y) {
+        std::ranges::swap_ranges(pixels.row(y), pixels.row(pixels.height() - 1 - y));
+    }
+    for (image::Rgba8& pixel : pixels.pixels()) {
+        pixel.a = 255;
+    }
+    return pixels;
+}
+
+void Window::show() {
+    glfwSwapBuffers(window_);
+}
+
+}  // namespace shearwater::ui

@@ -1,0 +1,50 @@
+#pragma once
+// The operating system's window with a graphics context and Dear ImGui in it.
+
+#include <memory>
+
+#include "client/view/theme.h"
+#include "common/base/result.h"
+#include "common/image/image.h"
+
+struct GLFWwindow;
+
+namespace shearwater::ui {
+
+struct WindowOptions {
+    int width = 1280;
+    int height = 800;
+    float scale = 0;  // 0: the display's
+};
+
+// One at a time; everything from the thread that opened it, except wake().
+class Window {
+  public:
+    static base::Result<std::unique_ptr<Window>> open(const WindowOptions& options);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    bool is_closing() const;
+    void close();
+    // Waits for input, a wake() or the time to pass, then begins a pass of widgets.
+    void begin(double wait_seconds);
+    // Draws the pass to the hidden buffer; the picture is seen after show().
+    void draw();
+    image::Image<image::Rgba8> read_pixels() const;
+    void show();
+    // Ends a wait in begin(); from any thread while a window is open.
+    static void wake();
+
+    float scale() const { return scale_; }
+    const theme::Fonts& fonts() const { return fonts_; }
+
+  private:
+    Window(GLFWwindow* window, float scale);
+
+    GLFWwindow* window_;
+    float scale_;
+    theme::Fonts fonts_;
+};
+
+}  // namespace shearwater::ui
