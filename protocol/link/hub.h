@@ -21,6 +21,7 @@ struct Refused {
     std::string text;
 };
 
+// To be used from the io_context's thread only, or while nobody runs it.
 class Hub {
   public:
     using OnEvent = std::function<void(wire::NetEvent)>;

@@ -1,6 +1,6 @@
 // Two hubs that mean well.
 
-#include <numeric>
+#include <atomic>
 
 #include "tests/link/support.h"
 
@@ -173,6 +173,28 @@ TEST(Hub, TicksSomeTenTimesASecond) {
     asio::io_context io;
     Station a(io);
     EXPECT_TRUE(run_until(io, [&] { return a.ticks >= 5; }));
+}
+
+// As programs have them: the loop on a thread of its own, effects posted to it.
+TEST(Hub, RunsOnAThreadOfItsOwn) {
+    asio::io_context io;
+    Station a(io);
+    const wire::Address address = a.listen();
+    std::atomic<std::size_t> received = 0;
+    a.then = [&] { received = a.received.size(); };
+
+    asio::io_context other;
+    std::optional<Station> b(std::in_place, other);
+    std::jthread thread([&] { other.run(); });
+    asio::post(other, [&] { b->dial(1, address); });
+    std::atomic<bool> up = false;
+    asio::post(other, [&] { b->then = [&] { up = !b->ups.empty(); }; });
+    ASSERT_TRUE(run_until(io, [&] { return up.load(); }));
+    for (std::uint64_t i = 0; i < 100; ++i) {
+        asio::post(other, [&, i] { b->send(LinkId{1}, windows(i, 10000)); });
+    }
+    EXPECT_TRUE(run_until(io, [&] { return received == 100; }));
+    asio::post(other, [&] { b.reset(); });
 }
 
 TEST(Hub, SpeaksIpVersion6AndNames) {
