@@ -61,7 +61,8 @@ SkyPlace appearance(const Disc& disc, const DiscPlace& place) {
 
 float arm_strength(const Disc& disc, const DiscPlace& place) {
     const float phase = static_cast<float>(disc.arms) * arm_phase(disc, place);
-    return std::exp(disc.contrast * (std::cos(phase) - 1));
+    // Between the main arms run weaker ones, twice as many.
+    return std::exp(disc.contrast * (std::cos(phase) - 1 + 0.3F * (std::cos(2 * phase + 1.2F) - 1)));
 }
 
 float density(const Disc& disc, const DiscPlace& place, std::uint64_t seed) {

@@ -42,7 +42,7 @@ std::optional<DiscPlace> place_seen_at(const Disc& disc, float x, float y);
 // arms included.
 SkyPlace appearance(const Disc& disc, const DiscPlace& place);
 
-// 1 on the ridge of an arm, down to exp(-2 * contrast) between.
+// 1 on the ridge of an arm, less between.
 float arm_strength(const Disc& disc, const DiscPlace& place);
 
 // The surface density there: smooth profile, arms and clumps sheared along them; 1 in size.

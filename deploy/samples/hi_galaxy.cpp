@@ -33,14 +33,14 @@ constexpr Disc galaxy = {.x = 57,
                          .inclination = 36 * degree,
                          .position_angle = 62 * degree,
                          .radius = 48,
-                         .scale = 30,
-                         .hole = 10,
+                         .scale = 24,
+                         .hole = 7,
                          .speed = 190,
                          .turnover = 6,
                          .arms = 2,
                          .pitch = 20 * degree,
-                         .contrast = 1.05F,
-                         .clumping = 0.6F,
+                         .contrast = 0.55F,
+                         .clumping = 0.42F,
                          .warp_inclination = 15 * degree,
                          .warp_angle = -38 * degree};
 // Gas above the disc, smoother, wider in velocity, and slower.
@@ -63,12 +63,12 @@ constexpr Disc halo = {.x = 57,
 constexpr Disc companion = {.x = 104,
                             .y = 29,
                             .v = 78,
-                            .inclination = 62 * degree,
+                            .inclination = 52 * degree,
                             .position_angle = 120 * degree,
                             .radius = 14,
                             .scale = 5,
                             .hole = 1.5F,
-                            .speed = 75,
+                            .speed = 62,
                             .turnover = 3,
                             .arms = 2,
                             .pitch = 25 * degree,
@@ -103,6 +103,11 @@ float bezier(float t, float a, float b, float c, float d) {
     return u * u * u * a + 3 * u * u * t * b + 3 * u * t * t * c + t * t * t * d;
 }
 
+Node on_disc(const Disc& disc, float x, float y) {
+    const auto place = place_seen_at(disc, x, y);
+    return {x, y, place ? appearance(disc, *place).v : disc.v};
+}
+
 class HiGalaxy final : public Formula {
   public:
     HiGalaxy(const volume::Index3& n, std::uint64_t seed)
@@ -111,8 +116,8 @@ class HiGalaxy final : public Formula {
           channel_(velocity_range / static_cast<float>(n[2])),
           noise_(n[0], n[1], 1.5F * std::min(scale_, 4.0F), seed),
           seed_(seed),
-          sheets_{sheet(galaxy, 0.05F, 8, seed + 1), sheet(halo, 0.003F, 20, seed + 2),
-                  sheet(companion, 0.06F, 10, seed + 3)},
+          sheets_{sheet(galaxy, 0.042F, 8, seed + 1), sheet(halo, 0.003F, 20, seed + 2),
+                  sheet(companion, 0.05F, 15, seed + 3)},
           clouds_(clouds()) {}
 
     Description description() const override;
@@ -193,7 +198,7 @@ void HiGalaxy::add_complexes(const Disc& disc, int count, float peak, Random& ra
             continue;
         }
         const SkyPlace seen = appearance(disc, place);
-        const float strength = std::exp(0.8F * normal_of(random)) * std::exp(-place.r / (2 * disc.scale));
+        const float strength = std::exp(0.6F * normal_of(random)) * std::exp(-place.r / (2 * disc.scale));
         blobs.push_back(blob({seen.x, seen.y, seen.v + 4 * normal_of(random)}, peak * strength,
                              uniform_in(random, 0.7F, 1.6F), uniform_in(random, 4, 8)));
         --count;
@@ -221,9 +226,12 @@ std::vector<Blob> HiGalaxy::clouds() const {
     std::vector<Blob> blobs;
     add_complexes(galaxy, 1800, 0.014F, random, blobs);
     add_complexes(companion, 60, 0.012F, random, blobs);
-    add_stream({{{78, 52, 20}, {94, 66, 62}, {121, 60, 104}, {106, 33, 86}}}, 420, 0.0017F, 1.5F, 2.4F,
-               random, blobs);
-    add_stream({{{74, 103, 80}, {66, 126, 118}, {36, 124, 92}, {17, 102, 40}}}, 420, 0.0012F, 1.5F, 3.2F,
+    // The bridge leaves one disc and enters the other at their own velocities, the tail leaves too.
+    const Node near_side = on_disc(galaxy, 79, 52);
+    const Node arrival = on_disc(companion, 106, 35);
+    const Node far_side = on_disc(galaxy, 80, 98);
+    add_stream({near_side, {94, 66, 62}, {122, 60, 108}, arrival}, 420, 0.0015F, 1.5F, 2.2F, random, blobs);
+    add_stream({far_side, {66, 127, far_side.v + 30}, {36, 124, 92}, {17, 102, 40}}, 460, 0.0012F, 1.4F, 3.2F,
                random, blobs);
     return blobs;
 }
@@ -233,7 +241,7 @@ float HiGalaxy::turbulence(std::int64_t x, std::int64_t y, float v) const {
     const float finest = 0.16F / scale_;
     const float noise = fractal_noise(static_cast<float>(x) * finest, static_cast<float>(y) * finest, v / 22,
                                       3, 0.6F, seed_ + 5);
-    return std::exp(0.45F * noise);
+    return std::exp(0.35F * noise);
 }
 
 void HiGalaxy::add_sheet(const Sheet& sheet, float v, std::span<float> out) const {
