@@ -1,6 +1,6 @@
 #include "deploy/still.h"
 
-#include "common/image/rle.h"
+#include "protocol/wire/picture.h"
 
 namespace shearwater::deploy {
 
@@ -12,31 +12,6 @@ constexpr wire::LinkId server_link{1};
 
 double seconds(wire::Time from, wire::Time to) {
     return std::chrono::duration<double>(to - from).count();
-}
-
-base::Result<image::Image<image::Rgba8>> decode(const wire::Message& message, const view::ImageSize& size) {
-    const auto& frame = std::get<pb::Frame>(message.body);
-    if (std::cmp_not_equal(frame.width(), size.width) || std::cmp_not_equal(frame.height(), size.height)) {
-        return base::error(base::Code::corrupt, "decode a frame", "it is of another size than was asked for");
-    }
-    image::Image<image::Rgba8> picture(size.width, size.height);
-    std::vector<std::byte> inflated;
-    std::span<const std::byte> coded;
-    if (message.payload) {
-        coded = *message.payload;
-    }
-    if (frame.encoding() == pb::ENCODING_RLE_DEFLATE) {
-        auto bytes = image::inflate(coded, image::rle_bound(picture.pixels().size()));
-        if (!bytes) {
-            return bytes.error();
-        }
-        inflated = *std::move(bytes);
-        coded = inflated;
-    }
-    if (const auto decoded = image::decode_rle(coded, picture.pixels()); !decoded) {
-        return decoded.error();
-    }
-    return picture;
 }
 
 }  // namespace
@@ -130,9 +105,9 @@ void Still::on_frame(const wire::Message& message, wire::Time now, std::vector<w
     if (frame.missing_size() > 0 || frame.revision() != view_.revision) {
         return;  // the server sends it again when it is whole
     }
-    auto decoded = decode(message, view_.size);
+    auto decoded = wire::picture_from(message, view_.size);
     if (!decoded) {
-        failed_ = decoded.error();
+        fail(base::Code::corrupt, decoded.error().text);
         return;
     }
     const pb::LeafStats& leaves = frame.stats().leaves();

@@ -3,9 +3,9 @@
 #include <boost/asio/post.hpp>
 #include <cstring>
 
-#include "common/image/rle.h"
 #include "common/image/warp.h"
 #include "protocol/wire/convert.h"
+#include "protocol/wire/picture.h"
 
 namespace shearwater::service {
 
@@ -15,20 +15,6 @@ namespace {
 
 double seconds_since(wire::Time begin) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-std::vector<std::byte> encode(const image::Image<image::Rgba8>& picture, bool deflate, pb::Frame& frame) {
-    std::vector<std::byte> coded(image::rle_bound(picture.pixels().size()));
-    coded.resize(image::encode_rle(picture.pixels(), coded));
-    frame.set_encoding(pb::ENCODING_RLE);
-    if (deflate) {
-        std::vector<std::byte> smaller = image::deflate(coded);
-        if (smaller.size() < coded.size()) {
-            frame.set_encoding(pb::ENCODING_RLE_DEFLATE);
-            return smaller;
-        }
-    }
-    return coded;
 }
 
 }  // namespace
@@ -56,8 +42,6 @@ void Service::finish(const head::Finish& job) {
     pb::Frame frame;
     frame.set_number(merged.frame);
     frame.set_revision(job.view.revision);
-    frame.set_width(static_cast<std::uint32_t>(job.view.size.width));
-    frame.set_height(static_cast<std::uint32_t>(job.view.size.height));
     for (const node::Missing& missing : merged.missing) {
         pb::Missing* const entry = frame.add_missing();
         entry->set_place(static_cast<std::uint32_t>(missing.place));
@@ -67,13 +51,13 @@ void Service::finish(const head::Finish& job) {
     const auto picture = image::warp(job.merge.factorisation, merged.windows, job.view.camera, job.view.size,
                                      job.view.tf.background, workers_);
     const wire::Time encode_begin = std::chrono::steady_clock::now();
-    std::vector<std::byte> coded = encode(picture, job.view.deflate, frame);
-    pb::FrameStats* const stats = frame.mutable_stats();
+    wire::Message message = wire::frame_message(std::move(frame), picture, job.view.deflate);
+    pb::FrameStats* const stats = std::get<pb::Frame>(message.body).mutable_stats();
     *stats->mutable_leaves() = merged.stats;
     stats->set_warp_seconds(std::chrono::duration<double>(encode_begin - warp_begin).count());
     stats->set_encode_seconds(seconds_since(encode_begin));
     stats->set_total_seconds(seconds_since(job.asked));
-    tell_(head::Finished{merged.frame, wire::message(std::move(frame), std::move(coded))});
+    tell_(head::Finished{merged.frame, std::move(message)});
 }
 
 void Service::read_voxels(const head::ReadVoxels& job) {
