@@ -1,0 +1,121 @@
+#include "tests/support/fits_fixture.h"
+
+#include <fitsio.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+#include "common/base/check.h"
+
+namespace shearwater::support {
+
+namespace {
+
+// Values as they are stored, whatever the scaling cards will say.
+void write_raw(fitsfile* file, const FitsImage& image, int* status) {
+    const auto count = static_cast<LONGLONG>(image.raw.size());
+    fits_set_bscale(file, 1, 0, status);
+    if (image.bitpix == LONGLONG_IMG) {
+        std::vector<LONGLONG> raw(image.raw.begin(), image.raw.end());
+        fits_write_img(file, TLONGLONG, 1, count, raw.data(), status);
+        return;
+    }
+    std::vector<double> raw = image.raw;
+    fits_write_img(file, TDOUBLE, 1, count, raw.data(), status);
+}
+
+void write_image(fitsfile* file, const FitsImage& image, int* status) {
+    fits_set_compression_type(file, image.compression, status);
+    if (!image.tile.empty()) {
+        std::vector<long> tile = image.tile;
+        fits_set_tile_dim(file, static_cast<int>(tile.size()), tile.data(), status);
+    }
+    fits_set_quantize_level(file, 0, status);
+    std::vector<long> axes = image.axes;
+    fits_create_img(file, image.bitpix, static_cast<int>(axes.size()), axes.data(), status);
+    for (auto [keyword, text] : image.texts) {
+        fits_write_key(file, TSTRING, keyword.c_str(), text.data(), nullptr, status);
+    }
+    write_raw(file, image, status);
+    if (image.blank) {
+        LONGLONG blank = *image.blank;
+        fits_write_key(file, TLONGLONG, "BLANK", &blank, nullptr, status);
+    }
+    if (image.scale) {
+        double scale = *image.scale;
+        fits_write_key(file, TDOUBLE, "BSCALE", &scale, nullptr, status);
+    }
+    if (image.zero) {
+        double zero = *image.zero;
+        fits_write_key(file, TDOUBLE, "BZERO", &zero, nullptr, status);
+    }
+}
+
+}  // namespace
+
+TemporaryFolder::TemporaryFolder() {
+    static std::atomic<int> number = 0;
+    folder_ = std::filesystem::temp_directory_path() /
+              ("shearwater-test-" + std::to_string(::getpid()) + "-" + std::to_string(number++));
+    std::filesystem::create_directories(folder_);
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+}
+
+void write_fits(const std::string& path, const std::vector<FitsImage>& images) {
+    std::remove(path.c_str());
+    fitsfile* file = nullptr;
+    int status = 0;
+    fits_create_diskfile(&file, path.c_str(), &status);
+    for (const FitsImage& image : images) {
+        write_image(file, image, &status);
+    }
+    fits_close_file(file, &status);
+    fits_report_error(stderr, status);
+    base::check(status == 0, "the test's FITS file is written");
+}
+
+std::string slurp(const std::string& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+void spill(const std::string& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+void gzip(const std::string& from, const std::string& to) {
+    const std::string bytes = slurp(from);
+    gzFile file = gzopen(to.c_str(), "wb");
+    base::check(file != nullptr, "the test's gzip file is opened");
+    gzwrite(file, bytes.data(), static_cast<unsigned>(bytes.size()));
+    gzclose(file);
+}
+
+std::string header_of(const std::vector<std::string>& cards) {
+    std::string header;
+    for (std::string one : cards) {
+        one.resize(80, ' ');
+        header += one;
+    }
+    header += "END";
+    header.resize((header.size() + 2879) / 2880 * 2880, ' ');
+    return header;
+}
+
+std::string card(const std::string& keyword, std::int64_t value) {
+    std::string text = keyword;
+    text.resize(8, ' ');
+    const std::string number = std::to_string(value);
+    return text + "= " + std::string(number.size() < 20 ? 20 - number.size() : 0, ' ') + number;
+}
+
+}  // namespace shearwater::support
