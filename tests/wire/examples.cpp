@@ -1,0 +1,293 @@
+#include "tests/wire/examples.h"
+
+namespace shearwater::wire::test {
+namespace {
+
+std::vector<std::byte> bytes(std::initializer_list<int> values) {
+    std::vector<std::byte> result;
+    for (const int value : values) {
+        result.push_back(static_cast<std::byte>(value));
+    }
+    return result;
+}
+
+const volume::Box box{{0, 1, 2}, {64, 65, 300}};
+const view::Lattice lattice{{64, 100, 301}, {1, 2, 0.5}};
+const volume::Mapping mapping{-1.5, 2.5, volume::Stretch::asinh, 16};
+
+template <class T>
+void fill(T& to, const T& from) {
+    to = from;
+}
+
+pb::Missing missing() {
+    pb::Missing m;
+    m.set_place(3);
+    fill(*m.mutable_box(), to_wire(box));
+    return m;
+}
+
+pb::LeafStats leaf_stats() {
+    pb::LeafStats s;
+    s.set_render_seconds(0.25);
+    s.set_composite_seconds(0.125);
+    s.set_samples(1000000);
+    s.set_bricks_total(512);
+    s.set_bricks_empty(100);
+    s.set_bricks_rendered(412);
+    s.set_window_bytes(std::uint64_t{1} << 33);
+    return s;
+}
+
+pb::Challenge challenge() {
+    pb::Challenge m;
+    m.set_version_min(1);
+    m.set_version_max(2);
+    m.set_nonce("0123456789abcdef");
+    return m;
+}
+pb::Hello hello() {
+    pb::Hello m;
+    m.set_role(pb::ROLE_CHILD);
+    m.set_version_min(1);
+    m.set_version_max(2);
+    m.set_nonce("fedcba9876543210");
+    m.set_proof("not a real proof");
+    m.set_name("node7/42");
+    return m;
+}
+pb::Welcome welcome() {
+    pb::Welcome m;
+    m.set_version(1);
+    m.set_proof("nor is this");
+    return m;
+}
+pb::Goodbye goodbye() {
+    pb::Goodbye m;
+    m.set_reason(pb::REASON_REPLACED);
+    m.set_text("another came");
+    return m;
+}
+pb::Ping ping() {
+    pb::Ping m;
+    m.set_token(300);
+    return m;
+}
+pb::Pong pong() {
+    pb::Pong m;
+    m.set_token(300);
+    return m;
+}
+
+pb::Join join() {
+    pb::Join m;
+    m.set_role(pb::ROLE_COMPOSITOR);
+    m.set_listen_host("10.0.0.7");
+    m.set_listen_port(9100);
+    m.set_threads(8);
+    m.set_node_name("left");
+    return m;
+}
+pb::Assign assign() {
+    pb::Assign m;
+    m.set_epoch(12345678901);
+    m.set_place(2);
+    fill(*m.mutable_box(), to_wire(box));
+    m.set_parent_host("10.0.0.1");
+    m.set_parent_port(9000);
+    pb::Child& child = *m.add_children();
+    child.set_place(5);
+    fill(*child.mutable_box(), to_wire(box));
+    pb::CubeSource& cube = *m.mutable_cube();
+    cube.set_path("/data/cube.fits");
+    cube.set_hdu(1);
+    cube.set_plane(-1);
+    fill(*cube.mutable_lattice(), to_wire(lattice));
+    fill(*m.mutable_mapping(), to_wire(mapping));
+    m.set_bits(16);
+    return m;
+}
+pb::Report report() {
+    pb::Report m;
+    m.set_place(2);
+    m.set_phase(pb::PHASE_FAILED);
+    m.set_fraction(0.5);
+    m.set_memory_bytes(1 << 20);
+    m.set_peak_bytes(1 << 21);
+    m.set_error("no such file");
+    m.set_parent_lost(true);
+    return m;
+}
+
+pb::Adopt adopt() {
+    pb::Adopt m;
+    m.set_epoch(12345678901);
+    m.set_place(2);
+    return m;
+}
+pb::HistogramReport histogram_report() {
+    pb::HistogramReport m;
+    m.add_places(3);
+    m.add_places(4);
+    m.add_key_steps(524288);
+    m.add_key_steps(1);
+    m.add_counts(7);
+    m.add_counts(1000);
+    m.set_blank(2);
+    m.set_min(0.5);
+    m.set_max(1.5);
+    return m;
+}
+pb::SetMapping set_mapping() {
+    pb::SetMapping m;
+    fill(*m.mutable_mapping(), to_wire(mapping));
+    return m;
+}
+pb::NeedVoxels need_voxels() {
+    pb::NeedVoxels m;
+    m.set_place(3);
+    m.set_request(9);
+    fill(*m.mutable_box(), to_wire(box));
+    return m;
+}
+pb::Voxels voxels() {
+    pb::Voxels m;
+    m.set_place(3);
+    m.set_request(9);
+    fill(*m.mutable_box(), to_wire(box));
+    m.set_error("gone");
+    return m;
+}
+pb::Render render() {
+    pb::Render m;
+    m.set_frame(17);
+    fill(*m.mutable_factorisation(), to_wire(factorisation()));
+    fill(*m.mutable_transfer_function(), to_wire(transfer_function()));
+    return m;
+}
+pb::Cancel cancel() {
+    pb::Cancel m;
+    m.set_frame(17);
+    return m;
+}
+pb::Windows windows() {
+    pb::Windows m;
+    m.set_frame(17);
+    pb::WindowHead& head = *m.add_windows();
+    head.set_face(1);
+    fill(*head.mutable_rect(), to_wire(view::Rect{1, 0, 2, 1}));
+    fill(*m.add_missing(), missing());
+    fill(*m.mutable_stats(), leaf_stats());
+    return m;
+}
+
+pb::CubeDescription cube_description() {
+    pb::CubeDescription m;
+    m.set_name("cube.fits");
+    m.set_object("NGC 6946");
+    m.set_unit("JY/BEAM");
+    fill(*m.mutable_lattice(), to_wire(lattice));
+    fill(*m.mutable_mapping(), to_wire(mapping));
+    return m;
+}
+pb::TreeState tree_state() {
+    pb::TreeState m;
+    pb::Node& node = *m.add_nodes();
+    node.set_place(1);
+    node.set_parent(-1);
+    node.set_role(pb::ROLE_RENDERER);
+    node.set_name("node7");
+    fill(*node.mutable_box(), to_wire(box));
+    node.set_phase(pb::PHASE_READY);
+    node.set_fraction(1);
+    node.set_memory_bytes(1 << 20);
+    node.set_peak_bytes(1 << 21);
+    node.set_error("none");
+    m.set_ready(true);
+    return m;
+}
+pb::Frame frame() {
+    pb::Frame m;
+    m.set_number(18);
+    m.set_revision(5);
+    m.set_width(640);
+    m.set_height(480);
+    m.set_encoding(pb::ENCODING_RLE_DEFLATE);
+    fill(*m.add_missing(), missing());
+    fill(*m.mutable_stats()->mutable_leaves(), leaf_stats());
+    m.mutable_stats()->set_warp_seconds(0.5);
+    m.mutable_stats()->set_encode_seconds(0.25);
+    m.mutable_stats()->set_total_seconds(1);
+    return m;
+}
+pb::FrameShown frame_shown() {
+    pb::FrameShown m;
+    m.set_number(18);
+    return m;
+}
+
+}  // namespace
+
+std::vector<Message> examples() {
+    return {message(challenge()),
+            message(hello()),
+            message(welcome()),
+            message(goodbye()),
+            message(ping()),
+            message(pong()),
+            message(join()),
+            message(assign()),
+            message(report()),
+            message(adopt()),
+            message(histogram_report()),
+            message(set_mapping()),
+            message(need_voxels()),
+            message(voxels(), bytes({0, 0, 128, 63})),
+            message(render()),
+            message(cancel()),
+            message(windows(), bytes({1, 0, 2, 0, 3, 0, 255, 255})),
+            message(cube_description()),
+            message(tree_state()),
+            message(to_wire(view_request())),
+            message(frame(), bytes({9, 8, 7})),
+            message(frame_shown())};
+}
+
+view::TransferFunction transfer_function() {
+    view::TransferFunction tf;
+    tf.opacity_pins = {view::Ramp{0.25, 0, 1, 0.5}, view::Hat{0.5, 0.125, 0.25, 0.75}, view::Flat{0.0625},
+                       view::Blank{0.25, 0.375}};
+    tf.colour_pins = {{0, {0, 0, 0}}, {0.5, {1, 0.5, 0.25}}, {1, {1, 1, 1}}};
+    tf.background = {0.125, 0.25, 0.5};
+    return tf;
+}
+
+view::Factorisation factorisation() {
+    view::Factorisation f;
+    f.projection = view::Projection::perspective;
+    f.lattice = lattice;
+    f.eye = {10, 20, -500};
+    f.direction = {0, 0, 1};
+    f.faces = {
+        {.axis = 2, .sign = 1, .width = 5, .height = 4, .origin = {-0.5, -0.25}, .pitch = {0.25, 0.125}},
+        {.axis = 0, .sign = -1, .width = 3, .height = 2, .origin = {0.5, -1}, .pitch = {0.5, 0.5}}};
+    return f;
+}
+
+View view_request() {
+    View v;
+    v.revision = 5;
+    v.camera = {.eye = {1, 2, 3},
+                .target = {0.5, 0, 0},
+                .up = {0, 1, 0},
+                .projection = view::Projection::parallel,
+                .fov = 30,
+                .height = 100};
+    v.size = {640, 480};
+    v.tf = transfer_function();
+    v.quality = view::Quality::high;
+    v.deflate = true;
+    return v;
+}
+
+}  // namespace shearwater::wire::test

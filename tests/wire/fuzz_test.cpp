@@ -1,0 +1,170 @@
+// Bounded runs, always the same, over everything that reads a peer's bytes. What is looked for are
+// crashes, failed checks and what the sanitizers see; what is taken must be sound.
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/wire/examples.h"
+
+namespace shearwater::wire::test {
+namespace {
+
+using Random = std::mt19937_64;
+
+std::size_t below(Random& random, std::size_t bound) {
+    return static_cast<std::size_t>(random() % bound);
+}
+
+// A few bytes changed, inserted, taken out, or the end cut off.
+void mutate(std::vector<std::byte>& bytes, Random& random) {
+    for (std::size_t n = 1 + below(random, 4); n > 0 && !bytes.empty(); --n) {
+        const auto at = bytes.begin() + static_cast<std::ptrdiff_t>(below(random, bytes.size()));
+        switch (below(random, 5)) {
+            case 0:
+                *at = static_cast<std::byte>(random());
+                break;
+            case 1:
+                *at ^= static_cast<std::byte>(1U << below(random, 8));
+                break;
+            case 2:
+                bytes.insert(at, static_cast<std::byte>(random()));
+                break;
+            case 3:
+                bytes.erase(at);
+                break;
+            default:
+                bytes.erase(at, bytes.end());
+                break;
+        }
+    }
+}
+
+void convert(const Body& body) {
+    if (const auto* view = std::get_if<pb::SetView>(&body)) {
+        if (const auto from = view_from(*view)) {
+            EXPECT_TRUE(view::validate(from->camera, from->size));
+            EXPECT_TRUE(view::validate(from->tf));
+        }
+    } else if (const auto* render = std::get_if<pb::Render>(&body)) {
+        if (const auto from = factorisation_from(render->factorisation())) {
+            EXPECT_TRUE(view::validate(*from));
+        }
+        if (const auto from = transfer_function_from(render->transfer_function())) {
+            EXPECT_TRUE(view::validate(*from));
+        }
+    } else if (const auto* assign = std::get_if<pb::Assign>(&body)) {
+        if (const auto from = box_from(assign->box())) {
+            EXPECT_GT(from->voxels(), 0);
+        }
+        if (const auto from = lattice_from(assign->cube().lattice())) {
+            EXPECT_GT(volume::voxel_count(from->n), 0);
+        }
+        if (const auto from = mapping_from(assign->mapping())) {
+            EXPECT_LE(from->lo, from->hi);
+        }
+    } else if (const auto* report = std::get_if<pb::HistogramReport>(&body)) {
+        if (const auto from = histogram_from(*report)) {
+            EXPECT_LE(from->min(), from->max());
+        }
+    }
+}
+
+TEST(Fuzz, HeadersOfRandomBytes) {
+    Random random(1);
+    std::array<std::byte, header_bytes> bytes;
+    const std::vector<Message> all = examples();
+    for (int i = 0; i < 200000; ++i) {
+        const std::vector<std::byte> head = encode_head(all[below(random, all.size())]);
+        std::copy_n(head.begin(), header_bytes, bytes.begin());
+        for (std::size_t n = below(random, 6); n > 0; --n) {
+            bytes[below(random, bytes.size())] = static_cast<std::byte>(random());
+        }
+        if (const auto header = parse_header(bytes)) {
+            const Limit* limit = limit_of(header->type);
+            ASSERT_NE(limit, nullptr);
+            EXPECT_LE(header->body, limit->body);
+            EXPECT_LE(header->payload, limit->payload);
+        }
+    }
+}
+
+TEST(Fuzz, BodiesThatWereGood) {
+    Random random(2);
+    const std::vector<Message> all = examples();
+    std::size_t taken = 0;
+    for (int i = 0; i < 60000; ++i) {
+        const Message& example = all[below(random, all.size())];
+        const std::vector<std::byte> head = encode_head(example);
+        std::vector<std::byte> body(head.begin() + header_bytes, head.end());
+        mutate(body, random);
+        const Header header{.version = 1,
+                            .type = type_of(example.body),
+                            .body = static_cast<std::uint32_t>(body.size()),
+                            .payload = 0};
+        if (const auto parsed = parse_body(header, body)) {
+            ++taken;
+            convert(*parsed);
+        } else {
+            EXPECT_EQ(parsed.error().reason, pb::REASON_MALFORMED);
+        }
+    }
+    EXPECT_GT(taken, 1000U);
+}
+
+TEST(Fuzz, BodiesOfRandomBytes) {
+    Random random(3);
+    for (int i = 0; i < 60000; ++i) {
+        std::vector<std::byte> body(below(random, 64));
+        for (std::byte& b : body) {
+            b = static_cast<std::byte>(random() % (i % 2 == 0 ? 256 : 32));
+        }
+        const auto type = static_cast<std::uint16_t>(below(random, 70));
+        if (limit_of(type) != nullptr) {
+            const auto size = static_cast<std::uint32_t>(body.size());
+            if (const auto parsed =
+                    parse_body({.version = 1, .type = type, .body = size, .payload = 0}, body)) {
+                convert(*parsed);
+            }
+        }
+    }
+}
+
+TEST(Fuzz, WindowsOfAnyShape) {
+    Random random(4);
+    const view::Factorisation f = factorisation();
+    std::size_t taken = 0;
+    for (int i = 0; i < 60000; ++i) {
+        pb::Windows body;
+        std::size_t pixels = 0;
+        for (std::size_t n = below(random, 4); n > 0; --n) {
+            pb::WindowHead& head = *body.add_windows();
+            head.set_face(static_cast<std::uint32_t>(below(random, 3)));
+            const auto edge = [&] { return static_cast<int>(below(random, 8)) - 1; };
+            const view::Rect rect{edge(), edge(), edge(), edge()};
+            *head.mutable_rect() = to_wire(rect);
+            pixels += static_cast<std::size_t>(rect.area());
+        }
+        const std::size_t wrong = below(random, 4) == 0 ? below(random, 20) : 0;
+        const Message sent = message(std::move(body), std::vector<std::byte>(pixels * 8 + wrong));
+        if (const auto windows = windows_from(sent, f)) {
+            ++taken;
+            std::size_t sum = 0;
+            for (const auto& window : *windows) {
+                EXPECT_EQ(window.pixels.size(), static_cast<std::size_t>(window.rect.area()));
+                EXPECT_EQ(view::intersection(window.rect,
+                                             {0, 0, f.faces[static_cast<std::size_t>(window.face)].width,
+                                              f.faces[static_cast<std::size_t>(window.face)].height}),
+                          window.rect);
+                for (const image::Rgba16& pixel : window.pixels) {
+                    sum += pixel.r;
+                }
+            }
+            EXPECT_EQ(sum, 0U);
+        }
+    }
+    EXPECT_GT(taken, 1000U);
+}
+
+}  // namespace
+}  // namespace shearwater::wire::test
