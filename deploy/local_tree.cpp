@@ -78,6 +78,11 @@ base::Result<LocalTree> LocalTree::start(const Options& options, const link::Sec
     if (!topology) {
         return topology.error();
     }
+    if (topology->launcher != tree::Launcher::local && topology->launcher != tree::Launcher::manual) {
+        return base::error(
+            base::Code::unsupported, "start a tree",
+            "this launcher is not there yet: use \"local\", or \"manual\" and start the daemons yourself");
+    }
     std::vector<std::string> arguments = options.cube.arguments();
     const std::vector<std::string> shape = options.tree.arguments();
     arguments.insert(arguments.end(), shape.begin(), shape.end());
@@ -99,6 +104,9 @@ base::Result<LocalTree> LocalTree::start(const Options& options, const link::Sec
         return address.error();
     }
     LocalTree tree(*std::move(server), *address, shape[1], secret);
+    if (topology->launcher == tree::Launcher::manual) {
+        return tree;
+    }
     if (const auto started = tree.start_daemons(*topology, options); !started) {
         return started.error();
     }
@@ -140,6 +148,14 @@ LocalTree::~LocalTree() {
     if (server_) {
         server_->ask_to_end();
     }
+}
+
+std::vector<pid_t> LocalTree::daemon_ids() const {
+    std::vector<pid_t> ids;
+    for (const Daemon& daemon : daemons_) {
+        ids.push_back(daemon.process ? daemon.process->id() : -1);
+    }
+    return ids;
 }
 
 bool LocalTree::keep_alive() {

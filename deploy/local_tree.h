@@ -46,8 +46,9 @@ class LocalTree {
         std::string log_level = "warn";
     };
 
-    // Starts the server, waits until it listens, starts the daemons. The server says itself, on standard
-    // error, why it cannot start: the error's operation is then empty.
+    // Starts the server, waits until it listens, starts the daemons (not where the topology's launcher is
+    // "manual"). The server says itself, on standard error, why it cannot start: the error's operation is
+    // then empty.
     static base::Result<LocalTree> start(const Options& options, const link::Secret& secret);
 
     LocalTree(LocalTree&&) = default;
@@ -55,6 +56,10 @@ class LocalTree {
 
     const wire::Address& address() const { return address_; }
     const std::string& shape() const { return shape_; }  // "2,3", or the topology file's name
+
+    // The daemons' process ids in the order of the topology's nodes, the server left out; -1: not running.
+    std::vector<pid_t> daemon_ids() const;
+    pid_t server_id() const { return server_ ? server_->id() : -1; }
 
     // Starts again what has died, not too often. False when the server is gone.
     bool keep_alive();

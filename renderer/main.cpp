@@ -45,7 +45,8 @@ int main(int argc, char** argv) {
     runtime.emplace(program, *secret, [&](wire::NetEvent event) {
         perform(leaf.handle(event, std::chrono::steady_clock::now()));
         if (const auto* down = std::get_if<wire::LinkDown>(&event)) {
-            spdlog::warn("link down: {}", down->text);
+            const bool orderly = down->reason == wire::pb::REASON_SHUTDOWN;
+            spdlog::log(orderly ? spdlog::level::info : spdlog::level::warn, "link down: {}", down->text);
         }
     });
     jobs.emplace(flags.common.threads, [&](leaf::JobEvent event) {

@@ -165,8 +165,11 @@ base::Result<Topology> read_topology(const toml::table& root, std::string_view s
         if (root.contains("node")) {
             return fault(source, "either [tree] or [[node]], not both");
         }
-        auto full = full_tree(static_cast<int>((*tree)["branching"].value_or(std::int64_t{0})),
-                              static_cast<int>((*tree)["levels"].value_or(std::int64_t{0})));
+        constexpr std::int64_t most = Topology::max_nodes;
+        const auto number = [&](const char* key) {
+            return static_cast<int>(std::clamp((*tree)[key].value_or(std::int64_t{0}), std::int64_t{-1}, most));
+        };
+        auto full = full_tree(number("branching"), number("levels"));
         if (!full) {
             return fault(source, full.error().detail);
         }

@@ -1,0 +1,212 @@
+// A junction's bookkeeping, event by event.
+
+#include "protocol/node/branch.h"
+
+#include <gtest/gtest.h>
+
+namespace shearwater::node {
+namespace {
+
+namespace pb = wire::pb;
+using wire::LinkId;
+using namespace std::chrono_literals;
+
+constexpr std::uint64_t epoch = 7;
+const wire::Time start{};
+
+view::Factorisation factorisation() {
+    const view::Lattice lattice{.n = {9, 9, 9}, .spacing = {1, 1, 1}};
+    return view::factorise(view::camera_on({}, lattice), {.width = 32, .height = 32}, lattice, 1);
+}
+
+pb::Render render(std::uint64_t frame) {
+    pb::Render message;
+    message.set_frame(frame);
+    return message;
+}
+
+pb::Adopt adopt(std::uint32_t place, std::uint64_t of_epoch = epoch) {
+    pb::Adopt message;
+    message.set_epoch(of_epoch);
+    message.set_place(place);
+    return message;
+}
+
+wire::Message empty_windows(std::uint64_t frame) {
+    return wire::windows_message(frame, {});
+}
+
+template <class T>
+std::vector<T> of(const std::vector<wire::NetEffect>& effects) {
+    std::vector<T> found;
+    for (const wire::NetEffect& effect : effects) {
+        if (const auto* one = std::get_if<T>(&effect)) {
+            found.push_back(*one);
+        }
+    }
+    return found;
+}
+
+class BranchTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        branch_.configure(epoch, {{3, {{0, 0, 0}, {4, 8, 8}}}, {4, {{4, 0, 0}, {8, 8, 8}}}}, effects_);
+        EXPECT_EQ(branch_.adopt(left_, adopt(3), effects_), 3);
+        EXPECT_EQ(branch_.adopt(right_, adopt(4), effects_), 4);
+        EXPECT_TRUE(effects_.empty());
+    }
+
+    Branch branch_;
+    std::vector<wire::NetEffect> effects_;
+    LinkId left_{101}, right_{102};
+};
+
+TEST_F(BranchTest, AFrameIsCompleteWhenEveryChildHasAnswered) {
+    branch_.begin(factorisation(), render(1), start, effects_);
+    EXPECT_EQ(of<wire::Send>(effects_).size(), 2U);
+    branch_.receive(right_, empty_windows(1), effects_);
+    EXPECT_TRUE(branch_.take_complete().empty());
+    branch_.receive(left_, empty_windows(1), effects_);
+    const auto complete = branch_.take_complete();
+    ASSERT_EQ(complete.size(), 1U);
+    EXPECT_EQ(complete[0].frame, 1U);
+    EXPECT_TRUE(complete[0].missing.empty());
+    EXPECT_TRUE(complete[0].parts[0].present && complete[0].parts[1].present);
+}
+
+TEST_F(BranchTest, FramesOverlapAndMayCompleteOutOfOrder) {
+    branch_.begin(factorisation(), render(1), start, effects_);
+    branch_.begin(factorisation(), render(2), start, effects_);
+    branch_.receive(left_, empty_windows(2), effects_);
+    branch_.receive(right_, empty_windows(2), effects_);
+    branch_.receive(left_, empty_windows(1), effects_);
+    EXPECT_EQ(branch_.take_complete().front().frame, 2U);
+    branch_.receive(right_, empty_windows(1), effects_);
+    EXPECT_EQ(branch_.take_complete().front().frame, 1U);
+}
+
+TEST_F(BranchTest, AChildThatDiesIsMissingWithItsBox) {
+    branch_.begin(factorisation(), render(1), start, effects_);
+    branch_.receive(left_, empty_windows(1), effects_);
+    branch_.link_down(right_);
+    auto complete = branch_.take_complete();
+    ASSERT_EQ(complete.size(), 1U);
+    ASSERT_EQ(complete[0].missing.size(), 1U);
+    EXPECT_EQ(complete[0].missing[0], (Missing{4, {{4, 0, 0}, {8, 8, 8}}}));
+    // And from the start in the next frame, until it is back.
+    branch_.begin(factorisation(), render(2), start, effects_);
+    branch_.receive(left_, empty_windows(2), effects_);
+    EXPECT_EQ(branch_.take_complete()[0].missing.size(), 1U);
+    EXPECT_EQ(branch_.adopt(LinkId{103}, adopt(4), effects_), 4);
+    branch_.begin(factorisation(), render(3), start, effects_);
+    branch_.receive(left_, empty_windows(3), effects_);
+    branch_.receive(LinkId{103}, empty_windows(3), effects_);
+    EXPECT_TRUE(branch_.take_complete()[0].missing.empty());
+}
+
+TEST_F(BranchTest, WhatIsMissingBelowAChildIsMissingHere) {
+    branch_.begin(factorisation(), render(1), start, effects_);
+    wire::Message windows = empty_windows(1);
+    pb::Missing* const missing = std::get<pb::Windows>(windows.body).add_missing();
+    missing->set_place(9);
+    *missing->mutable_box() = wire::to_wire(volume::Box{{0, 0, 0}, {4, 4, 8}});
+    branch_.receive(left_, windows, effects_);
+    branch_.receive(right_, empty_windows(1), effects_);
+    const auto complete = branch_.take_complete();
+    ASSERT_EQ(complete[0].missing.size(), 1U);
+    EXPECT_EQ(complete[0].missing[0].place, 9);
+}
+
+TEST_F(BranchTest, ASilentChildIsGivenUpInTheEnd) {
+    branch_.begin(factorisation(), render(1), start, effects_);
+    branch_.receive(left_, empty_windows(1), effects_);
+    branch_.tick(start + Branch::patience);
+    EXPECT_TRUE(branch_.take_complete().empty());
+    branch_.tick(start + Branch::patience + 1s);
+    ASSERT_EQ(branch_.take_complete().size(), 1U);
+    // Its windows, when they come after all, are of no use and do no harm.
+    effects_.clear();
+    branch_.receive(right_, empty_windows(1), effects_);
+    EXPECT_TRUE(effects_.empty());
+}
+
+TEST_F(BranchTest, ACancelGoesToThoseStillAtWork) {
+    branch_.begin(factorisation(), render(1), start, effects_);
+    branch_.receive(left_, empty_windows(1), effects_);
+    effects_.clear();
+    branch_.cancel(1, effects_);
+    const auto sends = of<wire::Send>(effects_);
+    ASSERT_EQ(sends.size(), 1U);
+    EXPECT_EQ(sends[0].link, right_);
+    EXPECT_TRUE(std::holds_alternative<pb::Cancel>(sends[0].message.body));
+    EXPECT_FALSE(branch_.pending(1));
+}
+
+TEST_F(BranchTest, FramesThatNobodyFinishesDoNotPileUp) {
+    for (std::uint64_t frame = 1; frame <= 3 * Branch::max_pending; ++frame) {
+        branch_.begin(factorisation(), render(frame), start, effects_);
+    }
+    EXPECT_FALSE(branch_.pending(1));
+    EXPECT_TRUE(branch_.pending(3 * Branch::max_pending));
+}
+
+TEST_F(BranchTest, FaultyMessagesEndTheChildsLinkByName) {
+    branch_.begin(factorisation(), render(1), start, effects_);
+    effects_.clear();
+    wire::Message windows = empty_windows(1);
+    std::get<pb::Windows>(windows.body).add_windows()->set_face(99);
+    branch_.receive(left_, windows, effects_);
+    ASSERT_EQ(of<wire::CloseLink>(effects_).size(), 1U);
+    EXPECT_EQ(of<wire::CloseLink>(effects_)[0].reason, pb::REASON_INVALID);
+    EXPECT_FALSE(branch_.is_child(left_));
+    effects_.clear();
+    branch_.receive(right_, wire::message(pb::SetView{}), effects_);
+    EXPECT_EQ(of<wire::CloseLink>(effects_)[0].reason, pb::REASON_BAD_TYPE);
+}
+
+TEST_F(BranchTest, StrangersAreNotAdopted) {
+    EXPECT_EQ(branch_.adopt(LinkId{200}, adopt(5), effects_), -1);
+    EXPECT_EQ(branch_.adopt(LinkId{201}, adopt(3, epoch + 1), effects_), -1);
+    EXPECT_EQ(of<wire::CloseLink>(effects_).size(), 2U);
+    effects_.clear();
+    // The same child on a new link: the old one is closed.
+    EXPECT_EQ(branch_.adopt(LinkId{202}, adopt(3), effects_), 3);
+    ASSERT_EQ(of<wire::CloseLink>(effects_).size(), 1U);
+    EXPECT_EQ(of<wire::CloseLink>(effects_)[0].link, left_);
+}
+
+TEST_F(BranchTest, HistogramsAreSummedOnceAllHaveReported) {
+    volume::Histogram a;
+    a.add(1.0F);
+    volume::Histogram b;
+    b.add(2.0F);
+    branch_.receive(left_, wire::message(wire::to_wire(a)), effects_);
+    EXPECT_FALSE(branch_.histogram());
+    branch_.receive(right_, wire::message(wire::to_wire(b)), effects_);
+    branch_.receive(right_, wire::message(wire::to_wire(b)), effects_);  // said again after a reconnect
+    ASSERT_TRUE(branch_.histogram());
+    EXPECT_EQ(branch_.histogram()->valid(), 2U);
+    EXPECT_EQ(branch_.histogram()->max(), 2.0);
+}
+
+TEST_F(BranchTest, VoxelsFindTheirWayBack) {
+    pb::NeedVoxels need;
+    need.set_place(12);
+    need.set_request(5);
+    *need.mutable_box() = wire::to_wire(volume::Box{{0, 0, 0}, {2, 2, 2}});
+    const auto up = branch_.receive(left_, wire::message(need), effects_);
+    ASSERT_TRUE(up);
+    EXPECT_EQ(up->place(), 12U);
+    pb::Voxels voxels;
+    voxels.set_place(12);
+    branch_.deliver_voxels(wire::message(voxels), effects_);
+    ASSERT_EQ(of<wire::Send>(effects_).size(), 1U);
+    EXPECT_EQ(of<wire::Send>(effects_)[0].link, left_);
+    // Not what another child holds.
+    *need.mutable_box() = wire::to_wire(volume::Box{{5, 0, 0}, {7, 2, 2}});
+    EXPECT_FALSE(branch_.receive(left_, wire::message(need), effects_));
+    EXPECT_EQ(of<wire::CloseLink>(effects_)[0].reason, pb::REASON_INVALID);
+}
+
+}  // namespace
+}  // namespace shearwater::node

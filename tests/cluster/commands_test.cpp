@@ -1,0 +1,172 @@
+// The command as a person types it: pictures, mistakes, unusable files.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "common/image/png.h"
+#include "tests/support/cubes.h"
+#include "tests/support/pictures.h"
+
+namespace shearwater {
+namespace {
+
+struct Outcome {
+    int status = -1;
+    std::string out;
+    std::string err;
+};
+
+Outcome run(const std::string& arguments) {
+    const support::Scratch scratch;
+    const std::string command = std::string("timeout 60 ") + SHEARWATER_BIN + "/shearwater " + arguments +
+                                " 2>" + scratch.file("err") + " </dev/null";
+    Outcome outcome;
+    FILE* const pipe = popen(command.c_str(), "r");
+    std::array<char, 4096> chunk{};
+    for (std::size_t got = 0; (got = fread(chunk.data(), 1, chunk.size(), pipe)) > 0;) {
+        outcome.out.append(chunk.data(), got);
+    }
+    const int ended = pclose(pipe);
+    outcome.status = WIFEXITED(ended) ? WEXITSTATUS(ended) : 128 + WTERMSIG(ended);
+    std::ostringstream text;
+    text << std::ifstream(scratch.file("err")).rdbuf();
+    outcome.err = text.str();
+    return outcome;
+}
+
+// Exit status 2 and one line that says what and why.
+void expect_mistake(const std::string& arguments, const std::string& word) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments << "\n" << outcome.err;
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << arguments << "\n" << outcome.err;
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << arguments << "\n" << outcome.err;
+}
+
+class Commands : public testing::Test {
+  protected:
+    void SetUp() override { ASSERT_TRUE(samples::write_sample("nbody-web", {31, 33, 29}, 3, cube_)); }
+
+    support::Scratch scratch_;
+    std::string cube_ = scratch_.file("cube.fits");
+    std::string png_ = scratch_.file("out.png");
+};
+
+TEST_F(Commands, SnapshotIsTheSameWithAndWithoutDaemons) {
+    for (const std::string view :
+         {"--azimuth 77 --elevation -20 --size 201x133", "--parallel --quality high"}) {
+        ASSERT_EQ(run("snapshot " + cube_ + " -o " + png_ + " --tree 1,1 " + view).status, 0);
+        const auto single = image::read_png(png_);
+        ASSERT_EQ(run("snapshot " + cube_ + " -o " + png_ + " --tree 3,2 " + view).status, 0);
+        const auto tree = image::read_png(png_);
+        ASSERT_TRUE(single && tree);
+        EXPECT_TRUE(support::lit(*single));
+        EXPECT_LE(support::difference(*single, *tree).largest, 1);
+    }
+}
+
+TEST_F(Commands, SnapshotReportsInJson) {
+    for (const std::string tree : {"1,1", "2,3"}) {
+        const Outcome outcome =
+            run("snapshot " + cube_ + " -o " + png_ + " --json - --repeat 3 --tree " + tree);
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        for (const char* key :
+             {"seconds", "load", "preprocess", "render", "composite", "warp", "encode", "total", "samples",
+              "bricks", "empty", "culled", "rendered", "bytes", "peak_bytes", "tree"}) {
+            EXPECT_NE(outcome.out.find('"' + std::string(key) + '"'), std::string::npos) << key << "\n"
+                                                                                         << outcome.out;
+        }
+        EXPECT_NE(outcome.out.find('"' + tree + '"'), std::string::npos);
+        EXPECT_TRUE(outcome.err.empty()) << outcome.err;
+    }
+}
+
+TEST_F(Commands, SnapshotWritesToStandardOutput) {
+    const Outcome outcome = run("snapshot " + cube_ + " -o - --tree 1,1");
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.out.substr(1, 3), "PNG");
+}
+
+TEST_F(Commands, MistakesGetOneLine) {
+    expect_mistake("", "subcommand");
+    expect_mistake("paint", "paint");
+    expect_mistake("snapshot", "output");
+    expect_mistake("snapshot -o " + png_, "cube");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --colour 3", "colour");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --size 0x10", "size");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --size 99999x99999 --tree 1,1", "pixels");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --size pear", "pear");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --fov 180 --tree 1,1", "field of view");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --fov nan --tree 1,1", "field of view");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --range 2 1", "range");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --spacing 1 0 1", "spacing");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --bits 12", "bits");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --tree 2", "tree");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --tree 65,2", "branching");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --tree 40,2", "too few");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --tf /nowhere.toml", "nowhere");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --topology /nowhere.toml", "nowhere");
+    expect_mistake("snapshot " + cube_ + " -o /nowhere/out.png --tree 1,1", "nowhere");
+    expect_mistake("snapshot /nowhere.fits -o " + png_, "nowhere");
+    expect_mistake("snapshot --connect 127.0.0.1:1 -o " + png_, "127.0.0.1:1");
+    expect_mistake("snapshot --connect nonsense -o " + png_, "nonsense");
+    expect_mistake("info /nowhere.fits", "nowhere");
+    expect_mistake("sample duck -o " + png_, "duck");
+    expect_mistake("sample ball -o " + png_ + " --size 0 1 2", "axis");
+    expect_mistake("sample ball -o /nowhere/x.fits", "nowhere");
+    std::ofstream(scratch_.file("bad.toml")) << "[[opacity]]\nkind = 'rump'\n";
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --tf " + scratch_.file("bad.toml"), "rump");
+}
+
+TEST_F(Commands, HelpEndsWithZero) {
+    for (const std::string command : {"", "view", "serve", "snapshot", "info", "sample"}) {
+        const Outcome outcome = run(command + " --help");
+        EXPECT_EQ(outcome.status, 0);
+        EXPECT_NE(outcome.out.find("--help"), std::string::npos);
+    }
+}
+
+// Every file that people may have: a picture, or one clear line. Never a crash, a hang, or a picture of
+// something that is not a cube.
+TEST(SharedData, GivesAPictureOrOneClearLine) {
+    const std::filesystem::path folder = SHEARWATER_SHARED_DATA;
+    if (!std::filesystem::is_directory(folder)) {
+        GTEST_SKIP() << "the folder of sample data is not here";
+    }
+    const support::Scratch scratch;
+    int pictures = 0;
+    int refusals = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        if (!entry.is_regular_file()) {
+            continue;
+        }
+        const std::string png = scratch.file("out.png");
+        std::filesystem::remove(png);
+        const Outcome outcome = run("snapshot '" + entry.path().string() + "' -o " + png +
+                                    " --tree 2,2 --size 64x64 --quality draft");
+        if (outcome.status == 0) {
+            ++pictures;
+            EXPECT_TRUE(image::read_png(png)) << entry.path();
+            EXPECT_TRUE(outcome.err.empty()) << entry.path() << "\n" << outcome.err;
+        } else {
+            ++refusals;
+            EXPECT_EQ(outcome.status, 2) << entry.path() << "\n" << outcome.err;
+            EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << entry.path() << "\n" << outcome.err;
+            EXPECT_FALSE(std::filesystem::exists(png)) << entry.path();
+        }
+        for (const char c : outcome.err) {
+            EXPECT_TRUE(c == '\n' || (c >= ' ' && c <= '~')) << entry.path();
+        }
+    }
+    EXPECT_GE(pictures, 45);
+    EXPECT_GE(refusals, 25);
+}
+
+}  // namespace
+}  // namespace shearwater
