@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "client/view/axes.h"
 #include "client/view/notices.h"
 #include "client/view/widgets.h"
 
@@ -123,6 +124,10 @@ void picture_area(Desk& desk, ImVec2 from, ImVec2 size) {
     ImGui::Begin("picture area", nullptr, bare | ImGuiWindowFlags_NoScrollWithMouse);
     draw_picture(desk, from, size);
     mouse(desk, from, size);
+    if (!desk.picture.empty()) {
+        const float inset = desk.px(axes_radius + 14);
+        draw_axes(desk, {from.x + inset, from.y + size.y - inset});
+    }
     notices(desk, from, size);
     ImGui::End();
     ImGui::PopStyleColor();

@@ -72,20 +72,21 @@ void node_line(const Desk& desk, const model::Node& node) {
     dot(desk, colour_of_phase(node.phase));
     const std::string name =
         node.name.empty() ? fmt::format("{} {}", word_for_role(node.role), node.place) : node.name;
+    const bool under_way = node.phase == pb::PHASE_COUNTING || node.phase == pb::PHASE_LOADING;
+    const char* phase = word_for_phase(node.phase);
     const float right = ImGui::GetWindowContentRegionMax().x;
-    const float column = desk.px(76);
+    const float column = under_way ? desk.px(64) : ImGui::CalcTextSize(phase).x;
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float name_end = ImGui::GetWindowPos().x + right - column - desk.px(6);
+    const float name_end = ImGui::GetWindowPos().x + right - column - desk.px(10);
     ImGui::PushClipRect({at.x, at.y}, {name_end, at.y + ImGui::GetTextLineHeight()}, true);
     text(node.phase == pb::PHASE_VACANT ? theme::muted : theme::text, name);
     ImGui::PopClipRect();
     ImGui::SameLine(right - column);
-    const bool under_way = node.phase == pb::PHASE_COUNTING || node.phase == pb::PHASE_LOADING;
     if (under_way) {
         ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetTextLineHeight() / 2 - desk.px(2));
         progress_line(desk, node.fraction, theme::busy, column);
     } else {
-        text(node.phase == pb::PHASE_FAILED ? theme::bad : theme::muted, word_for_phase(node.phase));
+        text(node.phase == pb::PHASE_FAILED ? theme::bad : theme::muted, phase);
     }
     const ImVec2 left_top{ImGui::GetWindowPos().x, line_start};
     if (ImGui::IsWindowHovered() &&

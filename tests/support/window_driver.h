@@ -1,0 +1,82 @@
+#pragma once
+// A virtual display with synthetic mouse and keys, and processes on it, for tests that drive a real window.
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/image/image.h"
+
+namespace shearwater::test {
+
+using Picture = image::Image<image::Rgba8>;
+
+// A folder of its own, gone with the object.
+class TemporaryFolder {
+  public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+// A child process in a group of its own; the whole group is killed with the object.
+class Process {
+  public:
+    // Output of both kinds goes to `log`. `environment` is added to ours.
+    Process(const std::vector<std::string>& command, const std::map<std::string, std::string>& environment,
+            const std::filesystem::path& log);
+    ~Process();
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+
+    void kill_group();
+    bool running();
+    // The exit status, or nothing when it has not ended by then (or was killed).
+    std::optional<int> wait(std::chrono::seconds limit);
+
+  private:
+    int pid_ = -1;
+    std::optional<int> status_;
+};
+
+class Display {
+  public:
+    // Why no display can be had here, or empty.
+    static std::string unavailable();
+
+    Display(int width, int height);
+    ~Display();
+    Display(const Display&) = delete;
+    Display& operator=(const Display&) = delete;
+
+    const std::string& name() const { return name_; }  // ":7"
+    Picture grab() const;
+
+    // The mouse is in the upper left corner before and after each of these: its pointer is on the screen.
+    void key(const std::string& name) { xdotool({"key", name}); }
+    // Presses `button` at (x, y), moves by (dx, dy) in steps and lets go.
+    void drag(int button, int x, int y, int dx, int dy, const std::string& held_key = "");
+    void click(int x, int y, int times = 1);
+    void wheel(int x, int y, int notches);  // upwards when positive
+
+  private:
+    void park();
+    void xdotool(const std::vector<std::string>& arguments);
+
+    TemporaryFolder folder_;
+    std::unique_ptr<Process> server_;
+    std::string name_;
+};
+
+}  // namespace shearwater::test
