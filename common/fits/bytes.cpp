@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/fits/inflater.h"
+
 namespace shearwater::fits {
 
 namespace {
@@ -49,25 +51,6 @@ std::size_t unpack_limit() {
                         static_cast<std::size_t>(std::max(1L, sysconf(_SC_PAGESIZE)));
     return std::min(std::size_t{4} << 30, memory / 2);
 }
-
-// zlib's stream, ended when it goes.
-class Inflater {
-  public:
-    Inflater() { ready_ = inflateInit2(&stream, 15 + 16) == Z_OK; }
-    ~Inflater() {
-        if (ready_) {
-            inflateEnd(&stream);
-        }
-    }
-    Inflater(const Inflater&) = delete;
-    Inflater& operator=(const Inflater&) = delete;
-    bool ready() const { return ready_; }
-
-    z_stream stream{};
-
-  private:
-    bool ready_ = false;
-};
 
 }  // namespace
 

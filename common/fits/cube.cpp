@@ -94,7 +94,7 @@ const CubeInfo& Cube::info() const {
 base::Status Cube::read(const volume::Box& box, std::span<float> out) {
     base::check(volume::whole(file_->info.n).contains(box), "the box lies in the cube");
     base::check(static_cast<std::int64_t>(out.size()) == box.voxels(), "one float for each voxel");
-    return file_->reader.read(file_->handle.get(), box, out, "read " + file_->info.path);
+    return file_->reader.read(file_->handle.get(), file_->bytes, box, out, "read " + file_->info.path);
 }
 
 }  // namespace shearwater::fits

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "common/fits/handle.h"
+#include "common/fits/tiles.h"
 
 namespace shearwater::fits {
 
@@ -56,13 +57,20 @@ base::Result<PixelReader> PixelReader::prepare(fitsfile* file, const Hdu& hdu, c
         return base::error(base::Code::unsupported, operation,
                            "images of more than 9 axes are not supported");
     }
+    PixelReader reader;
+    if (hdu.kind == HduKind::compressed_image) {
+        auto guard = guard_tiles(hdu, operation);
+        if (!guard) {
+            return guard.error();
+        }
+        reader.guard_ = std::move(*guard);
+        reader.compressed_ = true;
+    }
     if (base::Status shape = check_shape(file, hdu, operation); !shape) {
         return shape.error();
     }
-    PixelReader reader;
     reader.axes_ = axes;
     reader.lengths_ = hdu.axes;
-    reader.compressed_ = hdu.kind == HduKind::compressed_image;
     reader.integer_ = hdu.bitpix > 0;
     reader.wide_ = hdu.bitpix == -64;
     const double scale = scaling(hdu.header, "BSCALE", 1, notes);
@@ -169,9 +177,15 @@ base::Status PixelReader::read_range(fitsfile* file, Range range, std::span<floa
     return {};
 }
 
-base::Status PixelReader::read(fitsfile* file, const volume::Box& box, std::span<float> out,
-                               const std::string& operation) const {
-    return read_range(file, range_of(box), out, operation);
+base::Status PixelReader::read(fitsfile* file, const Bytes& bytes, const volume::Box& box,
+                               std::span<float> out, const std::string& operation) {
+    Range range = range_of(box);
+    if (compressed_) {
+        if (base::Status sound = guard_.check(bytes, range.first, range.last, operation); !sound) {
+            return sound;
+        }
+    }
+    return read_range(file, std::move(range), out, operation);
 }
 
 }  // namespace shearwater::fits

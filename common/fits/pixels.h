@@ -9,7 +9,9 @@
 
 #include "common/base/result.h"
 #include "common/fits/axes.h"
+#include "common/fits/bytes.h"
 #include "common/fits/hdu.h"
+#include "common/fits/tile_guard.h"
 #include "common/volume/box.h"
 
 namespace shearwater::fits {
@@ -25,8 +27,8 @@ class PixelReader {
 
     // Fills `out` with the voxels of the planes lo to hi of `box`. BLANK integers are NaN; floating-point
     // values are as stored. Doubles beyond single precision become infinite, and so blank.
-    base::Status read(fitsfile* file, const volume::Box& box, std::span<float> out,
-                      const std::string& operation) const;
+    base::Status read(fitsfile* file, const Bytes& bytes, const volume::Box& box, std::span<float> out,
+                      const std::string& operation);
 
   private:
     // First and last pixel along each axis of the file, from 1 and both included.
@@ -42,6 +44,7 @@ class PixelReader {
 
     CubeAxes axes_;
     std::vector<std::int64_t> lengths_;  // of all axes of the file
+    TileGuard guard_;                    // of a compressed image
     bool compressed_ = false;
     bool integer_ = false;
     bool wide_ = false;  // stored as doubles

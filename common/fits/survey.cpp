@@ -118,11 +118,6 @@ base::Result<Survey> find_cube(const Bytes& bytes, const std::optional<int>& wan
         if (base::Status present = check_present(survey.cube, bytes, operation); !present) {
             return present.error();
         }
-        if (survey.cube.kind == HduKind::compressed_image) {
-            if (base::Status sound = check_tiles(survey.cube, bytes, operation); !sound) {
-                return sound.error();
-            }
-        }
         look_behind(bytes, survey, wanted.has_value(), operation);
         return survey;
     }

@@ -1,9 +1,13 @@
 #pragma once
-// Tile-compressed images: everything that cfitsio's decoders take on trust is checked here first.
+// What the header of a tile-compressed image says, judged before cfitsio acts on it.
+
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include "common/base/result.h"
-#include "common/fits/bytes.h"
 #include "common/fits/hdu.h"
+#include "common/fits/tile_guard.h"
 
 namespace shearwater::fits {
 
@@ -11,8 +15,16 @@ namespace shearwater::fits {
 // shapes and tile sizes that contradict themselves, the number of rows, or what so few bytes can hold.
 base::Status read_compressed_shape(Hdu& hdu, const std::string& operation);
 
-// Checks that the table's array descriptors stay inside its heap, and what HCOMPRESS streams say of
-// their own size. Reads the table, not the heap.
-base::Status check_tiles(const Hdu& hdu, const Bytes& bytes, const std::string& operation);
+// The lengths of a tile along each axis, once the shape has been read.
+std::vector<std::int64_t> tile_lengths(const Hdu& hdu);
+
+// The table that holds the tiles, a row each, and its heap.
+struct Table {
+    std::int64_t rows, row_bytes, heap_offset, heap_bytes;
+};
+Table table_of(const Hdu& hdu);
+
+// A guard over the tiles' bytes; an error where the table's columns make no sense.
+base::Result<TileGuard> guard_tiles(const Hdu& hdu, const std::string& operation);
 
 }  // namespace shearwater::fits

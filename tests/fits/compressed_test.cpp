@@ -38,6 +38,16 @@ class Compressed : public testing::Test {
         support::spill(path_, bytes);
     }
 
+    // Of reading the whole of a file that opens.
+    base::Error read_error() {
+        auto cube = Cube::open(path_);
+        EXPECT_TRUE(cube) << (cube ? "" : cube.error().message());
+        std::vector<float> values(17 * 13 * 11);
+        const base::Status status = cube->read(volume::whole({17, 13, 11}), values);
+        EXPECT_FALSE(status);
+        return status ? base::Error{} : status.error();
+    }
+
     support::TemporaryFolder folder_;
     std::string path_ = folder_.path("cube.fits.fz");
 };
@@ -99,6 +109,8 @@ TEST_F(Compressed, HeadersThatContradictThemselvesAreRefused) {
         {support::card("ZNAXIS3", 1000), "tiles"},
         {support::card("ZBITPIX", 12), "ZBITPIX"},
         {"ZCMPTYPE= 'LZMA    '", "unsupported compression"},
+        {support::card("ZVAL1", 2000000), "parameters of its compression"},
+        {support::card("ZVAL2", 3), "parameters of its compression"},
         {"TFORM1  = '3ZZ     '", "columns"},
         {"TFORM1  = '99999999PB(1)'", "columns"},
         {support::card("TFIELDS", 0), "columns"},
@@ -137,7 +149,9 @@ TEST_F(Compressed, TilesOutsideTheHeapAreRefused) {
             std::string bytes = sound;
             bytes[byte] = hostile;
             support::spill(path_, bytes);
-            EXPECT_THAT(open_error(path_).message(), HasSubstr("outside")) << byte;
+            EXPECT_THAT(read_error().message(),
+                        testing::AnyOf(HasSubstr("outside"), HasSubstr("more compressed bytes")))
+                << byte;
         }
     }
 }
@@ -151,13 +165,13 @@ TEST_F(Compressed, HcompressStreamsOfAnotherShapeAreRefused) {
     ASSERT_NE(stream, std::string::npos);
     bytes[stream + 3] = '\x10';  // of its first length
     support::spill(path_, bytes);
-    EXPECT_THAT(open_error(path_).message(), HasSubstr("another shape"));
+    EXPECT_THAT(read_error().message(), HasSubstr("tile 0 is damaged"));
 }
 
 // Damage in the compressed bytes themselves: an error or other values, but no crash.
 TEST_F(Compressed, DamagedStreamsDoNoHarm) {
     std::mt19937 random(17);
-    for (const int compression : {RICE_1, GZIP_1, GZIP_2, HCOMPRESS_1}) {
+    for (const int compression : {RICE_1, GZIP_1, GZIP_2, HCOMPRESS_1, PLIO_1}) {
         FitsImage image = noisy(16, compression);
         image.tile = {17, 13, 1};
         support::write_fits(path_, {image});

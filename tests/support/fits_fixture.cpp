@@ -16,17 +16,31 @@ namespace shearwater::support {
 
 namespace {
 
+template <class Value>
+void write_as(int type, fitsfile* file, const FitsImage& image, int* status) {
+    std::vector<Value> raw(image.raw.begin(), image.raw.end());
+    fits_write_img(file, type, 1, static_cast<LONGLONG>(raw.size()), raw.data(), status);
+}
+
 // Values as they are stored, whatever the scaling cards will say.
 void write_raw(fitsfile* file, const FitsImage& image, int* status) {
-    const auto count = static_cast<LONGLONG>(image.raw.size());
     fits_set_bscale(file, 1, 0, status);
-    if (image.bitpix == LONGLONG_IMG) {
-        std::vector<LONGLONG> raw(image.raw.begin(), image.raw.end());
-        fits_write_img(file, TLONGLONG, 1, count, raw.data(), status);
-        return;
+    switch (image.bitpix) {  // compressed images take their own types only
+        case BYTE_IMG:
+            return write_as<std::uint8_t>(TBYTE, file, image, status);
+        case SHORT_IMG:
+            return write_as<std::int16_t>(TSHORT, file, image, status);
+        case LONG_IMG:
+            return write_as<int>(TINT, file, image, status);
+        case LONGLONG_IMG:
+            return write_as<LONGLONG>(TLONGLONG, file, image, status);
+        case FLOAT_IMG:
+            return write_as<float>(TFLOAT, file, image, status);
+        case DOUBLE_IMG:
+            return write_as<double>(TDOUBLE, file, image, status);
+        default:
+            base::check(false, "a BITPIX of FITS");
     }
-    std::vector<double> raw = image.raw;
-    fits_write_img(file, TDOUBLE, 1, count, raw.data(), status);
 }
 
 void write_image(fitsfile* file, const FitsImage& image, int* status) {
