@@ -70,19 +70,40 @@ struct Coordinate {
     }
 };
 
-// The change of the coordinate from one output pixel to the next: the smallest met, but no less than
-// half the usual one, lest a wide picture's corner set the pitch for all of it.
-double pixel_pitch(const Coordinate& coordinate, const Polygon& polygon) {
+// Points all over a convex polygon: its vertices, and some between each two of them and the middle.
+Polygon strewn(const Polygon& polygon) {
     const Vec2 middle =
         std::accumulate(polygon.begin(), polygon.end(), Vec2(0)) / static_cast<double>(polygon.size());
-    double least = coordinate.slope_at(middle);
-    double sum = least;
-    for (const Vec2& vertex : polygon) {
-        const double slope = coordinate.slope_at(vertex);
-        least = std::min(least, slope);
-        sum += slope;
+    Polygon points{middle};
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Vec2& a = polygon[i];
+        const Vec2& b = polygon[(i + 1) % polygon.size()];
+        for (const double out : {0.25, 0.5, 0.75, 1.0}) {
+            for (const double along : {0.0, 0.25, 0.5, 0.75}) {
+                points.push_back(middle + out * (a + along * (b - a) - middle));
+            }
+        }
     }
-    return std::max(least, 0.5 * sum / static_cast<double>(polygon.size() + 1));
+    return points;
+}
+
+// The least change of the coordinate from one output pixel to the next.
+double least_slope(const Coordinate& coordinate, const Polygon& points) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Vec2& point : points) {
+        least = std::min(least, coordinate.slope_at(point));
+    }
+    return least;
+}
+
+double area_of(const Polygon& polygon) {
+    double twice = 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Vec2& a = polygon[i];
+        const Vec2& b = polygon[(i + 1) % polygon.size()];
+        twice += a.x * b.y - a.y * b.x;
+    }
+    return std::abs(twice) / 2;
 }
 
 // A face before its pixels are counted.
@@ -93,21 +114,20 @@ struct Plan {
 
 // Pixels beyond the seen part on every side: the warp's filter reaches two to either side.
 constexpr int margin = 2;
+// Bounds of a face's area: in intermediate pixels that the part it serves would have at one pitch all
+// over, and a number that costs nothing.
+constexpr double most_pixels_per_pixel = 4;
+constexpr double few_pixels = 512 * 512;
 
-void lay_pixels(Plan& plan) {
-    const auto along = [](const Interval& range, double pitch, double& origin) {
-        origin = range.lo - margin * pitch;
-        return std::ceil((range.hi - range.lo) / pitch) + 1 + 2 * margin;
-    };
-    Face& face = plan.face;
-    const auto fit = [&](const Interval& range, double& pitch, double& origin, int& count) {
-        const double room = Factorisation::max_side - 2 - 2 * margin;
-        // Any pitch that can be computed with will do for a picture of no more than one point.
-        pitch = std::clamp(std::max(pitch, (range.hi - range.lo) / room), 1e-29, 1e29);
-        count = static_cast<int>(along(range, pitch, origin));
-    };
-    fit(plan.range_u, face.pitch.x, face.origin.x, face.width);
-    fit(plan.range_v, face.pitch.y, face.origin.y, face.height);
+// Pixels lie at odd multiples of half a pitch: none has a slope of 0. Such a ray from an eye on a cut
+// between boxes would lie in the cut, and rounding would deal its samples out to both sides by turns,
+// which no order of the boxes could put right.
+void lay_pixels(const Interval& range, double& pitch, double& origin, int& count) {
+    constexpr double room = Factorisation::max_side - 3 - 2 * margin;
+    // Any pitch that can be computed with will do for a picture of no more than one point.
+    pitch = std::clamp(std::max(pitch, (range.hi - range.lo) / room), 1e-29, 1e29);
+    origin = (std::floor(range.lo / pitch) - margin + 0.5) * pitch;
+    count = static_cast<int>(std::ceil((range.hi - origin) / pitch)) + 1 + margin;
 }
 
 // Gives `faces` their pixels, coarser where they would be too many together.
@@ -115,7 +135,8 @@ void lay_all(std::vector<Plan>& plans, Factorisation& factorisation) {
     const auto total = [&] {
         std::int64_t area = 0;
         for (Plan& plan : plans) {
-            lay_pixels(plan);
+            lay_pixels(plan.range_u, plan.face.pitch.x, plan.face.origin.x, plan.face.width);
+            lay_pixels(plan.range_v, plan.face.pitch.y, plan.face.origin.y, plan.face.height);
             area += std::int64_t{plan.face.width} * plan.face.height;
         }
         return area;
@@ -146,7 +167,16 @@ void add_plan(std::vector<Plan>& plans, Face face, const Polygon& seen, const Co
         plan.range_u.add(u.at(vertex));
         plan.range_v.add(v.at(vertex));
     }
-    plan.face.pitch = Vec2(pixel_pitch(u, seen), pixel_pitch(v, seen)) / resolution;
+    const Polygon points = strewn(seen);
+    Vec2& pitch = plan.face.pitch;
+    pitch = Vec2(least_slope(u, points), least_slope(v, points)) / resolution;
+    // In a wide or stretched view the slopes change much across the picture: what the densest part needs
+    // is given to all of it within a bound.
+    const double pixels =
+        (plan.range_u.hi - plan.range_u.lo) / pitch.x * (plan.range_v.hi - plan.range_v.lo) / pitch.y;
+    const double enough =
+        std::max(most_pixels_per_pixel * area_of(seen) * resolution * resolution, few_pixels);
+    pitch *= std::sqrt(std::max(1.0, pixels / enough));
     plans.push_back(plan);
 }
 

@@ -10,26 +10,37 @@ namespace {
 
 using view::Vec3;
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// A stretch of ray parameters, and the faces it comes in and goes out by.
 struct Stretch {
-    double a, b;  // ray parameters
+    double a = 0, b = 0;
+    int in = -1, out = -1;
 };
 
 // Where origin + t * direction is inside the box from 0 to last, t from `begin` on.
 Stretch inside(const Vec3& origin, const Vec3& direction, const Vec3& last, double begin) {
-    Stretch t{begin, std::numeric_limits<double>::infinity()};
+    Stretch t{begin, infinity};
     for (int axis = 0; axis < 3; ++axis) {
         if (direction[axis] == 0) {
             if (origin[axis] < 0 || origin[axis] > last[axis]) {
-                return {0, 0};
+                return {};
             }
             continue;
         }
-        const double t0 = (0 - origin[axis]) / direction[axis];
-        const double t1 = (last[axis] - origin[axis]) / direction[axis];
-        t.a = std::max(t.a, std::min(t0, t1));
-        t.b = std::min(t.b, std::max(t0, t1));
+        const bool rising = direction[axis] > 0;
+        const double enter = ((rising ? 0 : last[axis]) - origin[axis]) / direction[axis];
+        const double leave = ((rising ? last[axis] : 0) - origin[axis]) / direction[axis];
+        if (enter > t.a) {
+            t.a = enter;
+            t.in = 2 * axis + (rising ? 0 : 1);
+        }
+        if (leave < t.b) {
+            t.b = leave;
+            t.out = 2 * axis + (rising ? 1 : 0);
+        }
     }
-    return t.b > t.a ? t : Stretch{0, 0};
+    return t.b > t.a ? t : Stretch{};
 }
 
 Vec3 last_of(const volume::Index3& n) {
@@ -44,8 +55,7 @@ struct Ray {
 
 Ray ray_of(const view::Rays& rays, const volume::Index3& n, const Vec3& spacing, double px, double py) {
     Ray ray{.origin = rays.origin_at(px, py), .direction = rays.direction_at(px, py)};
-    const double begin =
-        rays.projection == view::Projection::perspective ? 0 : -std::numeric_limits<double>::infinity();
+    const double begin = rays.projection == view::Projection::perspective ? 0 : -infinity;
     ray.t = inside(ray.origin, ray.direction, last_of(n), begin);
     ray.world_per_t = glm::length(ray.direction * spacing);
     return ray;
@@ -139,13 +149,19 @@ image::Image<image::RgbaF> cast_rays(const FloatCube& cube, const Vec3& spacing,
     return picture;
 }
 
+Chord chord_of(const volume::Index3& n, const Vec3& spacing, const Vec3& origin, const Vec3& direction,
+               bool begins) {
+    const Stretch t = inside(origin, direction, last_of(n), begins ? 0 : -infinity);
+    const Vec3 along = glm::abs(direction);
+    return {(t.b - t.a) * glm::length(direction * spacing),
+            (t.b - t.a) * std::max({along.x, along.y, along.z}), t.in, t.out};
+}
+
 Chord chord_of(const volume::Index3& n, const Vec3& spacing, const view::Camera& camera,
                const view::ImageSize& size, double px, double py) {
     const view::Rays rays = in_voxel_space(view::rays_of(camera, size), {n, spacing});
-    const Ray ray = ray_of(rays, n, spacing, px, py);
-    const Vec3 along = glm::abs(ray.direction);
-    const double t = ray.t.b - ray.t.a;
-    return {t * ray.world_per_t, t * std::max({along.x, along.y, along.z})};
+    return chord_of(n, spacing, rays.origin_at(px, py), rays.direction_at(px, py),
+                    rays.projection == view::Projection::perspective);
 }
 
 double psnr(const image::Image<image::RgbaF>& a, const image::Image<image::RgbaF>& b) {

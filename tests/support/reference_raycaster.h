@@ -20,12 +20,17 @@ image::Image<image::RgbaF> cast_rays(const FloatCube& cube, const view::Vec3& sp
                                      const view::Camera& camera, const view::ImageSize& size,
                                      base::Workers& workers, double piece = 0.25);
 
-// The world length of a pixel's ray inside the cube, and its number of slices: the voxels it advances
-// along its principal axis.
+// What a ray (in voxel space, from its origin on, or from ever on where it begins nowhere) has inside the
+// cube: its world length, the slices it advances along its principal axis, and the faces of the cube it
+// comes in and goes out by: 2 * axis, + 1 for the upper; -1 where it begins inside or misses the cube.
 struct Chord {
     double length = 0;
     double slices = 0;
+    int in = -1, out = -1;
 };
+Chord chord_of(const volume::Index3& n, const view::Vec3& spacing, const view::Vec3& origin,
+               const view::Vec3& direction, bool begins);
+// The same of the ray through a point of the picture.
 Chord chord_of(const volume::Index3& n, const view::Vec3& spacing, const view::Camera& camera,
                const view::ImageSize& size, double px, double py);
 

@@ -1,0 +1,195 @@
+// One picture for every division: the leaves' windows, in 16 bits as they travel, merged in visibility
+// order and warped, beside the picture of one renderer.
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "common/image/over.h"
+#include "common/image/warp.h"
+#include "tests/support/reference_raycaster.h"
+#include "tests/support/reference_views.h"
+
+namespace shearwater::test {
+namespace {
+
+using image::Image;
+using image::Rgba16;
+using image::Rgba8;
+using image::Window;
+using view::Factorisation;
+using view::ImageSize;
+using view::Lattice;
+using volume::Box;
+using volume::Index3;
+
+// Cuts of a box, or a leaf where there are none.
+struct Node {
+    Box box;
+    std::vector<Node> parts;
+};
+
+Node cut(const Box& box, int axis, std::vector<std::int64_t> planes) {
+    const auto a = static_cast<std::size_t>(axis);
+    Node node{.box = box};
+    planes.push_back(box.hi[a]);
+    std::int64_t from = box.lo[a];
+    for (const std::int64_t plane : planes) {
+        Box part = box;
+        part.lo[a] = from;
+        part.hi[a] = plane;
+        node.parts.push_back({.box = part});
+        from = plane;
+    }
+    return node;
+}
+
+Node even_cut(const Box& box, int axis, int pieces) {
+    std::vector<std::int64_t> planes;
+    for (int i = 1; i < pieces; ++i) {
+        planes.push_back(box.lo[static_cast<std::size_t>(axis)] + box.cells(axis) * i / pieces);
+    }
+    return cut(box, axis, planes);
+}
+
+// Cuts every part again across its longest axis, and so on: the design's tree.
+void divide(Node& node, int pieces, int levels) {
+    if (levels == 0) {
+        return;
+    }
+    node = even_cut(node.box, node.box.longest_axis(), pieces);
+    for (Node& part : node.parts) {
+        divide(part, pieces, levels - 1);
+    }
+}
+
+// Loads every leaf's bricks once, to be drawn in many views.
+class Tree {
+  public:
+    Tree(const Node& node, FloatCube& cube, base::Workers& workers, const volume::Mapping& mapping)
+        : box_(node.box) {
+        for (const Node& part : node.parts) {
+            children_.emplace_back(part, cube, workers, mapping);
+        }
+        if (children_.empty()) {
+            leaf_.push_back(bricks_of(cube, node.box, workers, mapping));
+        }
+    }
+
+    std::vector<Window> render(const Factorisation& f, const view::TransferFunction& tf,
+                               base::Workers& workers, std::uint64_t& samples) const {
+        if (!leaf_.empty()) {
+            shear::RenderStats stats;
+            auto windows = shear::render(leaf_[0], f, tf, workers, &stats);
+            samples += stats.samples;
+            return windows;
+        }
+        std::vector<Box> boxes;
+        for (const Tree& child : children_) {
+            boxes.push_back(child.box_);
+        }
+        std::vector<std::vector<Rgba16>> payloads;
+        std::vector<image::WindowView16> arrived;
+        for (const int child : view::visibility_order(f, boxes)) {
+            for (const Window& window :
+                 children_[static_cast<std::size_t>(child)].render(f, tf, workers, samples)) {
+                payloads.emplace_back(window.pixels.pixels().size());
+                image::to_16_bits(window.pixels.pixels(), payloads.back());
+                arrived.push_back({window.face, window.rect, payloads.back()});
+            }
+        }
+        return image::merge_front_to_back(arrived);
+    }
+
+  private:
+    Box box_;
+    std::vector<Tree> children_;
+    std::vector<shear::BrickVolume> leaf_;
+};
+
+struct Picture {
+    Image<Rgba8> pixels;
+    std::uint64_t samples = 0;
+};
+
+Picture picture_of_tree(const Tree& tree, const Lattice& lattice, const view::Camera& camera,
+                        const ImageSize& size, const view::TransferFunction& tf, base::Workers& workers) {
+    const Factorisation f = view::factorise(camera, size, lattice, 1);
+    Picture picture;
+    const auto windows = tree.render(f, tf, workers, picture.samples);
+    picture.pixels = image::warp(f, windows, camera, size, {0, 0, 0}, workers);
+    return picture;
+}
+
+constexpr ImageSize size{90, 70};
+
+void expect_one_picture(FloatCube& cube, const std::vector<Node>& divisions,
+                        const view::Vec3& spacing = {1, 1, 1}, const volume::Mapping& mapping = {}) {
+    base::Workers workers;
+    const Lattice lattice{cube.n(), spacing};
+    const Tree whole({.box = volume::whole(cube.n())}, cube, workers, mapping);
+    const auto tf = ramp_to(0.2);
+    // Nothing gets opaque under this one, so every sample is taken by whoever owns it.
+    const view::TransferFunction thin{.opacity_pins = {view::Flat{1e-9}}, .colour_pins = {{0, {1, 1, 1}}}};
+    std::vector<Tree> trees;
+    for (const Node& node : divisions) {
+        trees.emplace_back(node, cube, workers, mapping);
+    }
+    for (const NamedView& view : all_views(lattice, every)) {
+        const Picture one = picture_of_tree(whole, lattice, view.camera, size, tf, workers);
+        const Picture count = picture_of_tree(whole, lattice, view.camera, size, thin, workers);
+        for (std::size_t i = 0; i < trees.size(); ++i) {
+            const Picture many = picture_of_tree(trees[i], lattice, view.camera, size, tf, workers);
+            EXPECT_LE(largest_difference(one.pixels, many.pixels), 1) << view.name << ", division " << i;
+            EXPECT_GE(psnr(one.pixels, many.pixels), 60) << view.name << ", division " << i;
+            EXPECT_EQ(picture_of_tree(trees[i], lattice, view.camera, size, thin, workers).samples,
+                      count.samples)
+                << view.name << ", division " << i;
+        }
+    }
+}
+
+TEST(Division, AcrossEveryAxisGivesOnePicture) {
+    FloatCube cube = noise_cube({47, 41, 53});
+    const Box whole = volume::whole(cube.n());
+    std::vector<Node> divisions;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const int pieces : {2, 3, 5, 8}) {
+            divisions.push_back(even_cut(whole, axis, pieces));
+        }
+    }
+    expect_one_picture(cube, divisions, {1, 1, 1}, {}, 5);
+    // An eye on the plane of a cut, and rays along it.
+    expect_one_picture(cube, {divisions[0], divisions[4], divisions[8]});
+}
+
+TEST(Division, InTreesGivesOnePicture) {
+    FloatCube cube = noise_cube({67, 37, 43}, 2);
+    std::vector<Node> divisions;
+    for (const auto& [pieces, levels] : {std::pair{2, 2}, {2, 3}, {3, 2}, {8, 1}}) {
+        Node node{.box = volume::whole(cube.n())};
+        divide(node, pieces, levels);
+        divisions.push_back(node);
+    }
+    expect_one_picture(cube, divisions, {1, 0.4, 1.7}, {}, 2);
+}
+
+// Slivers one cell thin, beside one another and at the cube's edges; parts cut along different axes.
+TEST(Division, UnevenlyGivesOnePicture) {
+    FloatCube cube = noise_cube({34, 33, 35}, 3);
+    for (std::size_t i = 0; i < cube.values().size(); i += 11) {
+        cube.values()[i] = std::numeric_limits<float>::quiet_NaN();
+    }
+    const Box whole = volume::whole(cube.n());
+    Node slivers = cut(whole, 0, {1, 2, 20, 32});
+    slivers.parts[2] = cut(slivers.parts[2].box, 1, {31});
+    slivers.parts[3] = cut(slivers.parts[3].box, 2, {1, 17, 33});
+    Node single = cut(cut(cut(whole, 2, {17}).parts[0].box, 1, {16}).parts[0].box, 0, {15});
+    Node nested = cut(whole, 2, {17});
+    nested.parts[0] = cut(nested.parts[0].box, 1, {16});
+    nested.parts[0].parts[0] = single;
+    expect_one_picture(cube, {slivers, nested}, {1, 1, 1}, {.bits = 16});
+}
+
+}  // namespace
+}  // namespace shearwater::test
