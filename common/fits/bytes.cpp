@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/check.h"
 #include "common/fits/inflater.h"
 
 namespace shearwater::fits {
@@ -130,6 +131,40 @@ bool Bytes::read(std::int64_t offset, std::span<char> out) const {
     return true;
 }
 
+bool Bytes::resize(Memory& memory, std::size_t size) {
+    void* const resized = std::realloc(memory.get(), size);
+    if (resized == nullptr) {
+        return false;
+    }
+    static_cast<void>(memory.release());
+    memory.reset(resized);
+    return true;
+}
+
+base::Status Bytes::pad(std::int64_t size, const std::string& operation) {
+    const auto wanted = static_cast<std::size_t>(size);
+    const auto present = static_cast<std::size_t>(size_);
+    base::check(size > size_, "there is something to pad");
+    if (wanted > unpack_limit()) {
+        return base::error(Code::corrupt, operation,
+                           "the file is cut off: " + std::to_string(wanted - present) +
+                               " bytes of its last block are missing");
+    }
+    const bool on_disk = unpacked_ == nullptr;
+    Memory memory = std::move(unpacked_);
+    if (!resize(memory, wanted)) {
+        return base::error(Code::too_large, operation, "no memory to hold it");
+    }
+    auto* const first = static_cast<char*>(memory.get());
+    if (on_disk && !read(0, std::span(first, present))) {
+        return system_error(operation, errno);
+    }
+    std::memset(first + present, 0, wanted - present);
+    unpacked_ = std::move(memory);
+    size_ = size;
+    return {};
+}
+
 base::Status Bytes::unpack(const std::string& operation) {
     const std::size_t limit = unpack_limit();
     Inflater inflater;
@@ -171,12 +206,9 @@ base::Status Bytes::unpack(const std::string& operation) {
                                        " MiB; unpack it first with gunzip");
             }
             capacity = std::min(capacity * 2, limit);
-            void* const larger = std::realloc(memory.get(), capacity);
-            if (larger == nullptr) {
+            if (!resize(memory, capacity)) {
                 return base::error(Code::too_large, operation, "no memory to unpack it");
             }
-            static_cast<void>(memory.release());
-            memory.reset(larger);
         }
         const auto room = static_cast<uInt>(std::min<std::size_t>(capacity - filled, std::size_t{1} << 30));
         stream.next_out = static_cast<Bytef*>(memory.get()) + filled;

@@ -27,7 +27,11 @@ class Bytes {
     // Fills `out` from `offset` on; false where the file ends too soon or cannot be read.
     bool read(std::int64_t offset, std::span<char> out) const;
 
-    // Where the unpacked bytes are; null for those on disk.
+    // Holds the bytes in memory, with zeros behind them up to `size`: for a file whose last block was not
+    // filled up, where cfitsio reads whole blocks only. An error where that is more than the limit.
+    base::Status pad(std::int64_t size, const std::string& operation);
+
+    // Where the unpacked or padded bytes are; null for those on disk.
     void* unpacked() const { return unpacked_.get(); }
 
   private:
@@ -35,6 +39,8 @@ class Bytes {
         void operator()(void* memory) const { std::free(memory); }
     };
     using Memory = std::unique_ptr<void, Free>;
+
+    static bool resize(Memory& memory, std::size_t size);
 
     explicit Bytes(int descriptor, std::int64_t size) : descriptor_(descriptor), size_(size) {}
     base::Status unpack(const std::string& operation);

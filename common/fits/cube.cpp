@@ -54,9 +54,15 @@ base::Result<Cube> Cube::open(const std::string& path, const OpenOptions& option
     if (!bytes) {
         return bytes.error();
     }
-    const auto survey = find_cube(*bytes, options.hdu, operation);
+    auto survey = find_cube(*bytes, options.hdu, operation);
     if (!survey) {
         return survey.error();
+    }
+    if (const std::int64_t missing = survey->cube.next_offset - bytes->size(); missing > 0) {
+        if (base::Status padded = bytes->pad(survey->cube.next_offset, operation); !padded) {
+            return padded.error();
+        }
+        survey->notes.push_back("the last block of the file is " + std::to_string(missing) + " bytes short");
     }
     const auto axes = choose_axes(survey->cube, options.plane, operation);
     if (!axes) {

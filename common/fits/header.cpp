@@ -53,9 +53,11 @@ void Header::add(std::string_view card) {
     if (card.substr(8, 2) != "= ") {
         return;
     }
-    const std::string_view keyword = trimmed(card.substr(0, 8));
-    if (!keyword.empty()) {
-        values_.try_emplace(std::string(keyword), card.substr(10));
+    const std::string_view name = card.substr(0, 8);
+    const std::string keyword(name.substr(0, name.find_last_not_of(' ') + 1));
+    const auto [known, is_new] = values_.try_emplace(keyword, card.substr(10));
+    if (!is_new && known->second != card.substr(10)) {
+        contradicted_.push_back(keyword);
     }
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/base/result.h"
 #include "common/fits/bytes.h"
@@ -35,6 +36,9 @@ class Header {
     // As written, without quotes and trailing blanks: print it through base::printable only.
     std::optional<std::string> text(std::string_view keyword) const;
 
+    // Keywords that stand on several cards with different values.
+    const std::vector<std::string>& contradicted() const { return contradicted_; }
+
     std::optional<std::int64_t> integer(std::string_view stem, int number) const;
     std::optional<std::string> text(std::string_view stem, int number) const;
 
@@ -43,6 +47,7 @@ class Header {
     std::optional<std::string_view> bare(std::string_view keyword) const;
 
     std::map<std::string, std::string, std::less<>> values_;  // the value field of the card
+    std::vector<std::string> contradicted_;
     std::int64_t data_offset_ = 0;
 };
 

@@ -28,6 +28,13 @@ base::Status check_shape(fitsfile* file, const Hdu& hdu, const std::string& oper
         !std::equal(lengths.begin(), lengths.end(), hdu.axes.begin())) {
         return base::error(base::Code::corrupt, operation, "the header gives more than one shape");
     }
+    if (hdu.kind == HduKind::compressed_image) {
+        const std::vector<std::int64_t> tile = tile_lengths(hdu);
+        if (!std::equal(tile.begin(), tile.end(), file->Fptr->tilesize)) {
+            return base::error(base::Code::corrupt, operation,
+                               "the header gives more than one size of tiles");
+        }
+    }
     return {};
 }
 

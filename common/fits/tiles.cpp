@@ -25,8 +25,9 @@ base::Error corrupt(const Hdu& hdu, const std::string& operation, const std::str
 }
 
 std::int64_t tile_length(const Hdu& hdu, int axis) {
+    const std::string keyword = "ZTILE" + std::to_string(axis);
     const std::int64_t usual = axis == 1 ? hdu.axes[0] : 1;
-    return hdu.header.integer("ZTILE", axis).value_or(usual);
+    return hdu.header.has(keyword) ? hdu.header.integer(keyword).value_or(0) : usual;
 }
 
 // How many bytes one compressed byte can stand for at most. Deflate ends at 1032; the quadtrees and
@@ -108,8 +109,8 @@ std::vector<ArrayColumn> array_columns(const Header& header, std::int64_t row_by
 
 // Rice's block of pixels and bytes of a pixel, by which its decoder counts.
 bool rice_parameters_hold(const Header& header) {
-    const std::int64_t block = header.integer("ZVAL1").value_or(32);
-    const std::int64_t bytes = header.integer("ZVAL2").value_or(4);
+    const std::int64_t block = header.has("ZVAL1") ? header.integer("ZVAL1").value_or(0) : 32;
+    const std::int64_t bytes = header.has("ZVAL2") ? header.integer("ZVAL2").value_or(0) : 4;
     return (block == 16 || block == 32) && (bytes == 1 || bytes == 2 || bytes == 4 || bytes == 8);
 }
 
@@ -117,6 +118,11 @@ bool rice_parameters_hold(const Header& header) {
 
 base::Status read_compressed_shape(Hdu& hdu, const std::string& operation) {
     const Header& header = hdu.header;
+    for (const std::string& keyword : header.contradicted()) {
+        if (keyword.find_first_of("ZTNP") == 0) {  // of the image, the columns, the shape or the heap
+            return corrupt(hdu, operation, base::printable(keyword) + " has more than one value");
+        }
+    }
     const std::string codec = header.text("ZCMPTYPE").value_or("");
     if (std::find(codecs.begin(), codecs.end(), codec) == codecs.end()) {
         return base::error(Code::unsupported, operation,
@@ -182,7 +188,8 @@ std::vector<std::int64_t> tile_lengths(const Hdu& hdu) {
 Table table_of(const Hdu& hdu) {
     const std::int64_t row_bytes = hdu.header.integer("NAXIS1").value_or(0);
     const std::int64_t rows = hdu.header.integer("NAXIS2").value_or(0);
-    const std::int64_t gap = hdu.header.integer("THEAP").value_or(row_bytes * rows);
+    const std::int64_t gap =
+        hdu.header.has("THEAP") ? hdu.header.integer("THEAP").value_or(-1) : row_bytes * rows;
     if (gap < row_bytes * rows || gap > hdu.data_bytes) {
         return {rows, row_bytes, hdu.header.data_offset(), -1};
     }

@@ -95,31 +95,31 @@ FitsImage counting(int bitpix) {
 TEST(HeaderFuzz, Integers) {
     FitsImage image = counting(16);
     image.blank = 5;
-    fuzz(image, 1500, 1);
+    fuzz(image, 4000, 1);
 }
 
 TEST(HeaderFuzz, Doubles) {
-    fuzz(counting(-64), 1500, 2);
+    fuzz(counting(-64), 4000, 2);
 }
 
 TEST(HeaderFuzz, TilesOfRice) {
     FitsImage image = counting(16);
     image.compression = RICE_1;
-    fuzz(image, 1500, 3);
+    fuzz(image, 6000, 3);
 }
 
 TEST(HeaderFuzz, TilesOfGzip) {
     FitsImage image = counting(-32);
     image.compression = GZIP_2;
     image.tile = {3, 5, 2};
-    fuzz(image, 1500, 4);
+    fuzz(image, 6000, 4);
 }
 
 TEST(HeaderFuzz, TilesOfHcompress) {
     FitsImage image = counting(32);
     image.compression = HCOMPRESS_1;
     image.tile = {6, 5, 1};
-    fuzz(image, 1000, 5);
+    fuzz(image, 4000, 5);
 }
 
 }  // namespace

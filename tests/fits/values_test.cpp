@@ -186,6 +186,10 @@ TEST_F(Values, MissingPaddingDoesNoHarm) {
     expect_same(read_whole(path_), expected);
     auto cube = Cube::open(path_);
     EXPECT_EQ(read_box(*cube, {{4, 5, 6}, {4, 5, 6}})[0], 209);
+    EXPECT_THAT(cube->info().notes, testing::ElementsAre(testing::HasSubstr("2040 bytes short")));
+    const std::string packed = folder_.path("cube.fits.gz");
+    support::gzip(path_, packed);
+    expect_same(read_whole(packed), expected);
 }
 
 }  // namespace

@@ -103,6 +103,7 @@ std::string slurp(const std::string& path) {
 }
 
 void spill(const std::string& path, const std::string& bytes) {
+    std::remove(path.c_str());  // a new file is not flushed to disk as one that is cut is
     std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
