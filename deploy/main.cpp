@@ -1,10 +1,13 @@
 // shearwater: the one command a person types.
 
+#include <algorithm>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "deploy/commands.h"
 #include "protocol/daemon/options.h"
+#include "protocol/daemon/runtime.h"
 
 using namespace shearwater;
 
@@ -24,6 +27,14 @@ int main(int argc, char** argv) {
     for (const auto& [name, about, add] : commands) {
         CLI::App* const command = app.add_subcommand(name, about);
         runs.emplace_back(command, add(*command));
+    }
+    const std::string typed = argc > 1 ? argv[1] : "";
+    const bool known =
+        typed.empty() || typed.starts_with('-') ||
+        std::ranges::any_of(commands, [&](const auto& command) { return std::get<0>(command) == typed; });
+    if (!known) {
+        return daemon::refuse("shearwater", base::error(base::Code::invalid_argument, typed,
+                                                        "no such command; see shearwater --help"));
     }
     if (const auto status = daemon::parse(app, argc, argv)) {
         return *status;

@@ -20,11 +20,37 @@ struct Flags {
     daemon::Options common;
 };
 
+// Lines to paste: for looking at the cube, and for starting by hand what no launcher starts.
+void print_how_to_join(const std::string& cube, const tree::Topology& topology, const wire::Address& server,
+                       const std::string& secret_file) {
+    const std::string with_secret = secret_file.empty() ? "" : " --secret-file " + secret_file;
+    const std::string address = wire::to_string(server);
+    std::printf("serving %s; to look at it:\n  shearwater view --connect %s%s\n", cube.c_str(),
+                address.c_str(), with_secret.c_str());
+    if (topology.launcher == tree::Launcher::manual) {
+        std::printf("waiting for the daemons; on their machines:\n");
+        for (std::size_t i = 1; i < topology.nodes.size(); ++i) {
+            const tree::NodeSpec& node = topology.nodes[i];
+            const bool joins_many = node.role == tree::Role::compositor;
+            std::printf("  shearwater-%s --server %s --node %s%s%s%s%s\n",
+                        std::string(name(node.role)).c_str(), address.c_str(), node.name.c_str(),
+                        joins_many ? " --listen 0.0.0.0:0" : "", with_secret.c_str(),
+                        node.host.empty() ? "" : "    # on ", node.host.c_str());
+        }
+    }
+    std::fflush(stdout);
+}
+
 base::Status serve(const Flags& flags) {
     if (const auto valid = flags.cube.validate(); !valid) {
         return valid;
     }
-    const auto chosen = choose_secret(flags.common.secret_file);
+    const auto topology = flags.tree.topology();
+    if (!topology) {
+        return topology.error();
+    }
+    const bool own_file = !flags.common.secret_file.empty();
+    const auto chosen = choose_secret(own_file ? flags.common.secret_file : topology->secret_file);
     if (!chosen) {
         return chosen.error();
     }
@@ -36,7 +62,7 @@ base::Status serve(const Flags& flags) {
     if (!tree) {
         return tree.error();
     }
-    std::string secret_file = flags.common.secret_file;
+    std::string secret_file = own_file ? flags.common.secret_file : topology->secret_file;
     if (chosen->fresh) {
         auto kept = keep_secret(chosen->secret, tree->address().port);
         if (!kept) {
@@ -44,10 +70,7 @@ base::Status serve(const Flags& flags) {
         }
         secret_file = *std::move(kept);
     }
-    const std::string with_secret = secret_file.empty() ? "" : " --secret-file " + secret_file;
-    std::printf("serving %s; to look at it:\n  shearwater view --connect %s%s\n", flags.cube.path.c_str(),
-                wire::to_string(tree->address()).c_str(), with_secret.c_str());
-    std::fflush(stdout);
+    print_how_to_join(flags.cube.path, *topology, tree->address(), secret_file);
 
     bool server_gone = false;
     std::optional<daemon::Runtime> runtime;

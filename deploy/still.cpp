@@ -1,6 +1,7 @@
 #include "deploy/still.h"
 
 #include "protocol/wire/picture.h"
+#include "protocol/wire/words.h"
 
 namespace shearwater::deploy {
 
@@ -70,12 +71,7 @@ void Still::on_state(const pb::TreeState& state) {
             fail(base::Code::io, base::printable(node.error(), 400));
         }
         if (node.role() == pb::ROLE_RENDERER) {
-            // Two passes over the voxels: the first counts, the second loads.
-            const double passes = node.phase() == pb::PHASE_READY     ? 2
-                                  : node.phase() == pb::PHASE_LOADING ? 1 + node.fraction()
-                                  : node.phase() == pb::PHASE_WAITING ? 1
-                                                                      : node.fraction();
-            sum += passes / 2;
+            sum += wire::loaded_share(node.phase(), node.fraction());
             renderers += 1;
         }
         if (node.peak_bytes() > 0) {

@@ -4,6 +4,7 @@
 
 #include "protocol/daemon/options.h"
 #include "protocol/daemon/runtime.h"
+#include "protocol/wire/words.h"
 #include "renderer/jobs/jobs.h"
 #include "renderer/leaf/leaf.h"
 
@@ -39,7 +40,7 @@ int main(int argc, char** argv) {
         }
         if (leaf.phase() != said) {
             said = leaf.phase();
-            spdlog::info("{} {}", wire::pb::Phase_Name(said), leaf.error());
+            spdlog::info("{} {}", wire::text_of(said), leaf.error());
         }
     };
     runtime.emplace(program, *secret, [&](wire::NetEvent event) {

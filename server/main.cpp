@@ -10,6 +10,7 @@
 #include "common/options/tree_options.h"
 #include "protocol/daemon/options.h"
 #include "protocol/daemon/runtime.h"
+#include "protocol/wire/words.h"
 #include "server/head/head.h"
 #include "server/service/service.h"
 
@@ -76,7 +77,7 @@ int serve(const std::string& program, const Flags& flags, const link::Secret& se
         [&](wire::NetEvent event) {
             perform(head.handle(event, std::chrono::steady_clock::now()));
             if (const auto* up = std::get_if<wire::LinkUp>(&event)) {
-                spdlog::info("{} from {} ({})", wire::pb::Role_Name(up->role), up->peer_host, up->peer_name);
+                spdlog::info("{} from {} ({})", wire::text_of(up->role), up->peer_host, up->peer_name);
             } else if (const auto* down = std::get_if<wire::LinkDown>(&event)) {
                 spdlog::info("link down: {}", down->text);
             }

@@ -24,7 +24,8 @@ base::Result<std::vector<volume::Box>> divide(const volume::Box& box, std::span<
     std::int64_t lo = box.lo[axis];
     for (std::int64_t part = 0; part < parts; ++part) {
         weight_so_far += weights[static_cast<std::size_t>(part)];
-        const std::int64_t wanted = box.lo[axis] + std::llround(static_cast<double>(cells) * weight_so_far / total);
+        const std::int64_t wanted =
+            box.lo[axis] + std::llround(static_cast<double>(cells) * weight_so_far / total);
         // A cell at least for this part and for each that follows.
         const std::int64_t hi = std::clamp(wanted, lo + 1, box.hi[axis] - (parts - 1 - part));
         volume::Box piece = box;

@@ -30,7 +30,8 @@ struct Topology {
     static constexpr int max_nodes = 4096;
 
     std::vector<NodeSpec> nodes;
-    std::string listen;  // the server's, "ADDR:PORT"; empty: loopback, a free port
+    std::string listen;       // the server's, "ADDR:PORT"; empty: loopback, a free port
+    std::string secret_file;  // empty: none is named
     Launcher launcher = Launcher::local;
 
     std::vector<int> children_of(int node) const;

@@ -167,7 +167,8 @@ base::Result<Topology> read_topology(const toml::table& root, std::string_view s
         }
         constexpr std::int64_t most = Topology::max_nodes;
         const auto number = [&](const char* key) {
-            return static_cast<int>(std::clamp((*tree)[key].value_or(std::int64_t{0}), std::int64_t{-1}, most));
+            return static_cast<int>(
+                std::clamp((*tree)[key].value_or(std::int64_t{0}), std::int64_t{-1}, most));
         };
         auto full = full_tree(number("branching"), number("levels"));
         if (!full) {
@@ -195,7 +196,19 @@ base::Result<Topology> read_topology(const toml::table& root, std::string_view s
     } else {
         return fault(source, "neither [tree] nor [[node]]");
     }
+    const std::pair<const char*, const char*> sections[] = {
+        {"server", "listen"}, {"security", "secret_file"}, {"placement", "launcher"}};
+    for (const auto& [section, only] : sections) {
+        const toml::table* const table = root[section].as_table();
+        if (root.contains(section) && table == nullptr) {
+            return fault(source, "[" + std::string(section) + "] is a table");
+        }
+        if (const auto key = table != nullptr ? unknown_key(*table, {only}) : std::nullopt) {
+            return fault(source, "[" + std::string(section) + "] has no key '" + *key + "'");
+        }
+    }
     topology.listen = root["server"]["listen"].value_or(std::string{});
+    topology.secret_file = root["security"]["secret_file"].value_or(std::string{});
     const std::string launcher = root["placement"]["launcher"].value_or(std::string{"local"});
     if (const auto known = launcher_named(launcher)) {
         topology.launcher = *known;

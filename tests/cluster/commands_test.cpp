@@ -99,7 +99,7 @@ TEST_F(Commands, MistakesGetOneLine) {
     expect_mistake("snapshot", "output");
     expect_mistake("snapshot -o " + png_, "cube");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --colour 3", "colour");
-    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --size 0x10", "size");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --size 0x10", "picture");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --size 99999x99999 --tree 1,1", "pixels");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --size pear", "pear");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --fov 180 --tree 1,1", "field of view");

@@ -24,6 +24,8 @@ name = "alone"
 role = "renderer"
 [server]
 listen = "0.0.0.0:7700"
+[security]
+secret_file = "/etc/tree.secret"
 [placement]
 launcher = "manual"
 )";
@@ -41,6 +43,7 @@ TEST(Topology, ReadsAnUnevenTreeInAnyOrder) {
     EXPECT_EQ(topology->nodes[4].host, "node7");
     EXPECT_EQ(topology->listen, "0.0.0.0:7700");
     EXPECT_EQ(topology->launcher, Launcher::manual);
+    EXPECT_EQ(topology->secret_file, "/etc/tree.secret");
 }
 
 TEST(Topology, ReadsAFullTree) {
@@ -84,6 +87,8 @@ TEST(Topology, SaysWhatIsWrong) {
     expect_refused("[tree]\nbranching = 2\nlevels = 2\n[placement]\nlauncher = 'rocket'\n", "rocket");
     expect_refused("[tree]\nbranching = 2\nlevels = 2\n[sever]\nlisten = 'x'\n", "sever");
     expect_refused("[tree]\nbranching = 4294967298\nlevels = 2\n", "branching");
+    expect_refused("[tree]\nbranching = 2\nlevels = 2\n[server]\nlisen = 'x'\n", "lisen");
+    expect_refused("server = 3\n[tree]\nbranching = 2\nlevels = 2\n", "[server] is a table");
     std::string many;
     for (int i = 0; i < 65; ++i) {
         many += "[[node]]\nname = 'r" + std::to_string(i) + "'\nrole = 'renderer'\n";
