@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+
+#include "common/image/silhouette.h"
 
 namespace shearwater::image {
 
@@ -13,9 +16,16 @@ using view::Factorisation;
 using view::Projection;
 using view::Vec3;
 
-// Where a ray of the picture lies in the intermediate images; window is null where none has it.
+// A face's intermediate image, and what of it the cube covers.
+struct Layer {
+    const Window* window;
+    const Face* face;
+    Silhouette silhouette;
+};
+
+// Where a ray of the picture lies in the intermediate images; layer is null where none has it.
 struct Place {
-    const Window* window = nullptr;
+    const Layer* layer = nullptr;
     double i = 0, j = 0;  // in the face's pixels
 };
 
@@ -27,7 +37,8 @@ class Finder {
           rays_(in_voxel_space(view::rays_of(camera, size), factorisation.lattice)) {
         for (const Window& window : windows) {
             const Face& face = factorisation.faces[static_cast<std::size_t>(window.face)];
-            by_face_[slot(face.axis, face.sign > 0)] = &window;
+            layers_[slot(face.axis, face.sign > 0)].emplace(
+                Layer{&window, &face, Silhouette(factorisation, face)});
         }
     }
 
@@ -35,11 +46,11 @@ class Finder {
         const bool perspective = factorisation_.projection == Projection::perspective;
         const Vec3 direction = perspective ? rays_.direction_at(px, py) : factorisation_.direction;
         const int axis = principal_axis(direction);
-        const Window* const window = by_face_[slot(axis, direction[axis] > 0)];
-        if (window == nullptr) {
+        const std::optional<Layer>& layer = layers_[slot(axis, direction[axis] > 0)];
+        if (!layer) {
             return {};
         }
-        const Face& face = factorisation_.faces[static_cast<std::size_t>(window->face)];
+        const Face& face = *layer->face;
         const int u = face.u_axis();
         const int v = face.v_axis();
         double at_u = direction[u] / direction[axis];
@@ -49,7 +60,7 @@ class Finder {
             at_u = origin[u] - at_u * origin[axis];
             at_v = origin[v] - at_v * origin[axis];
         }
-        return {window, (at_u - face.origin.x) / face.pitch.x, (at_v - face.origin.y) / face.pitch.y};
+        return {&*layer, (at_u - face.origin.x) / face.pitch.x, (at_v - face.origin.y) / face.pitch.y};
     }
 
   private:
@@ -64,7 +75,7 @@ class Finder {
 
     const Factorisation& factorisation_;
     view::Rays rays_;
-    std::array<const Window*, Factorisation::max_faces> by_face_{};
+    std::array<std::optional<Layer>, Factorisation::max_faces> layers_;
 };
 
 RgbaF& operator+=(RgbaF& sum, const RgbaF& pixel) {
@@ -86,35 +97,104 @@ RgbaF within_gamut(const RgbaF& pixel) {
     return {std::clamp(pixel.r, 0.0F, a), std::clamp(pixel.g, 0.0F, a), std::clamp(pixel.b, 0.0F, a), a};
 }
 
-RgbaF resample(const Window& window, double i, double j) {
-    const double x = i - window.rect.x0;
-    const double y = j - window.rect.y0;
-    const int width = window.rect.width();
-    const int height = window.rect.height();
-    if (!(x > -2 && y > -2 && x < width + 1 && y < height + 1)) {
-        return {};
-    }
-    const int x0 = static_cast<int>(std::floor(x));
-    const int y0 = static_cast<int>(std::floor(y));
-    const auto weight_x = cubic_weights(static_cast<float>(x - x0));
-    const auto weight_y = cubic_weights(static_cast<float>(y - y0));
+// A pixel's neighbourhood: the 4 x 4 intermediate pixels about its place, which lies (tx, ty) of the way
+// from the second to the third of them.
+struct Patch {
+    int i, j;  // of the first, in the face's pixels
+    float tx, ty;
+};
+
+RgbaF pixel_at(const Window& window, int i, int j) {
+    const Rect& rect = window.rect;
+    const bool has = rect.x0 <= i && i < rect.x1 && rect.y0 <= j && j < rect.y1;
+    return has ? window.pixels.at(i - rect.x0, j - rect.y0) : RgbaF{};
+}
+
+// Catmull-Rom's cubic interpolation.
+RgbaF interpolate(const Window& window, const Patch& patch) {
+    const auto weight_x = cubic_weights(patch.tx);
+    const auto weight_y = cubic_weights(patch.ty);
+    const Rect& rect = window.rect;
+    const bool whole =
+        patch.i >= rect.x0 && patch.i + 4 <= rect.x1 && patch.j >= rect.y0 && patch.j + 4 <= rect.y1;
     RgbaF sum;
     for (int dy = 0; dy < 4; ++dy) {
-        const int row = y0 - 1 + dy;
-        if (row < 0 || row >= height) {
-            continue;
-        }
-        const auto pixels = window.pixels.row(row);
         RgbaF along;
+        const RgbaF* const row =
+            whole ? &window.pixels.at(patch.i - rect.x0, patch.j + dy - rect.y0) : nullptr;
         for (int dx = 0; dx < 4; ++dx) {
-            const int column = x0 - 1 + dx;
-            if (column >= 0 && column < width) {
-                along += weight_x[static_cast<std::size_t>(dx)] * pixels[static_cast<std::size_t>(column)];
-            }
+            along += weight_x[static_cast<std::size_t>(dx)] *
+                     (whole ? row[dx] : pixel_at(window, patch.i + dx, patch.j + dy));
         }
         sum += weight_y[static_cast<std::size_t>(dy)] * along;
     }
     return within_gamut(sum);
+}
+
+// Beside the silhouette, where some of the neighbourhood has no value: the plane that fits the rest best,
+// so that the picture ends as sharply as the cube does, at the place where it does.
+RgbaF extrapolate(const Layer& layer, const Patch& patch) {
+    struct Tap {
+        float weight, x, y;
+        RgbaF pixel;
+    };
+    std::array<Tap, 16> taps;
+    std::size_t count = 0;
+    float s = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
+    for (int n = 0; n < 16; ++n) {
+        const int i = patch.i + n % 4;
+        const int j = patch.j + n / 4;
+        if (!layer.silhouette.pixel_row(j).contains(i)) {
+            continue;
+        }
+        const float x = static_cast<float>(n % 4 - 1) - patch.tx;
+        const float y = static_cast<float>(n / 4 - 1) - patch.ty;
+        const float tent = std::max(2 - std::abs(x), 0.05F) * std::max(2 - std::abs(y), 0.05F);
+        const float w = tent * tent;
+        taps[count++] = {w, x, y, pixel_at(*layer.window, i, j)};
+        s += w;
+        sx += w * x;
+        sy += w * y;
+        sxx += w * x * x;
+        sxy += w * x * y;
+        syy += w * y * y;
+    }
+    if (count == 0) {
+        return {};
+    }
+    // The fitted plane's value here is the sum of weight * (a + b x + c y) * pixel.
+    const float determinant =
+        s * (sxx * syy - sxy * sxy) - sx * (sx * syy - sxy * sy) + sy * (sx * sxy - sxx * sy);
+    float a = 1 / s, b = 0, c = 0;
+    if (determinant > 0.02F * s * s * s) {
+        a = (sxx * syy - sxy * sxy) / determinant;
+        b = (sxy * sy - sx * syy) / determinant;
+        c = (sx * sxy - sxx * sy) / determinant;
+    }
+    RgbaF sum;
+    for (const Tap& tap : std::span(taps).first(count)) {
+        sum += tap.weight * (a + b * tap.x + c * tap.y) * tap.pixel;
+    }
+    return within_gamut(sum);
+}
+
+RgbaF resample(const Place& place) {
+    const Layer& layer = *place.layer;
+    const int rows = layer.face->height;
+    if (!(place.i > -1 && place.j > -1 && place.i < layer.face->width && place.j < rows)) {
+        return {};
+    }
+    const double i = std::floor(place.i);
+    const double j = std::floor(place.j);
+    const Patch patch{static_cast<int>(i) - 1, static_cast<int>(j) - 1, static_cast<float>(place.i - i),
+                      static_cast<float>(place.j - j)};
+    // The outline is convex: it holds the patch if it holds its corners.
+    const Stretch& top = layer.silhouette.pixel_row(patch.j);
+    const Stretch& bottom = layer.silhouette.pixel_row(patch.j + 3);
+    if (std::max(top.lo, bottom.lo) <= patch.i && patch.i + 3 <= std::min(top.hi, bottom.hi)) {
+        return interpolate(*layer.window, patch);
+    }
+    return layer.silhouette.row(place.j).contains(place.i) ? extrapolate(layer, patch) : RgbaF{};
 }
 
 std::uint8_t to_level(double x) {
@@ -132,8 +212,7 @@ Image<Pixel> warp_to(const Factorisation& factorisation, std::span<const Window>
         const auto pixels = picture.row(y);
         for (int x = 0; x < size.width; ++x) {
             const Place place = finder.find(x + 0.5, y + 0.5);
-            pixels[static_cast<std::size_t>(x)] =
-                finish(place.window == nullptr ? RgbaF{} : resample(*place.window, place.i, place.j));
+            pixels[static_cast<std::size_t>(x)] = finish(place.layer == nullptr ? RgbaF{} : resample(place));
         }
     });
     return picture;

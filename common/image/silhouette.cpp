@@ -1,0 +1,69 @@
+#include "common/image/silhouette.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace shearwater::image {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Stretch nothing{infinity, -infinity};
+
+// Where start + slope * w is within [0, last].
+Stretch within(double start, double slope, double last) {
+    if (slope == 0) {
+        return start >= 0 && start <= last ? Stretch{-infinity, infinity} : nothing;
+    }
+    const double a = (0 - start) / slope;
+    const double b = (last - start) / slope;
+    return {std::min(a, b), std::max(a, b)};
+}
+
+}  // namespace
+
+Silhouette::Silhouette(const view::Factorisation& factorisation, const view::Face& face)
+    : factorisation_(factorisation), face_(face) {
+    for (int j = -reach; j < face.height + reach; ++j) {
+        rows_.push_back(row(j));
+    }
+}
+
+Stretch Silhouette::row(double j) const {
+    const auto last = [&](int axis) {
+        return static_cast<double>(factorisation_.lattice.n[static_cast<std::size_t>(axis)] - 1);
+    };
+    const bool perspective = factorisation_.projection == view::Projection::perspective;
+    const int u = face_.u_axis();
+    const int v = face_.v_axis();
+    const double eye_w = factorisation_.eye[face_.axis];
+    const double at_v = face_.origin.y + j * face_.pitch.y;
+
+    // The part of the row's rays, as a stretch of w, that is in front of the eye and inside along v and w.
+    Stretch w = perspective ? within(factorisation_.eye[v] - at_v * eye_w, at_v, last(v))
+                            : within(at_v, factorisation_.direction[v] / factorisation_.direction[face_.axis],
+                                     last(v));
+    w = {std::max(w.lo, 0.0), std::min(w.hi, last(face_.axis))};
+    if (perspective) {
+        (face_.sign > 0 ? w.lo : w.hi) = face_.sign > 0 ? std::max(w.lo, eye_w) : std::min(w.hi, eye_w);
+    }
+    if (w.hi < w.lo) {
+        return nothing;
+    }
+    // The cube's two sides along u, seen at both ends of it.
+    Stretch at_u = nothing;
+    for (const double end : {w.lo, w.hi}) {
+        for (const double side : {0.0, last(u)}) {
+            double place = side - factorisation_.direction[u] / factorisation_.direction[face_.axis] * end;
+            if (perspective) {
+                // Next to the eye itself a side is seen at any slope.
+                const double depth = std::max(face_.sign * (end - eye_w), 1e-12) * face_.sign;
+                place = (side - factorisation_.eye[u]) / depth;
+            }
+            at_u = {std::min(at_u.lo, place), std::max(at_u.hi, place)};
+        }
+    }
+    return {(at_u.lo - face_.origin.x) / face_.pitch.x, (at_u.hi - face_.origin.x) / face_.pitch.x};
+}
+
+}  // namespace shearwater::image

@@ -1,0 +1,32 @@
+#pragma once
+// The cube's outline in a face's intermediate image. It is convex, so a row crosses it in one stretch.
+
+#include <vector>
+
+#include "common/view/factorisation.h"
+
+namespace shearwater::image {
+
+// Pixels i of a row, fractional, whose rays meet the cube; none where hi < lo.
+struct Stretch {
+    double lo, hi;
+    bool contains(double i) const { return lo <= i && i <= hi; }
+};
+
+class Silhouette {
+  public:
+    Silhouette(const view::Factorisation& factorisation, const view::Face& face);
+
+    // Of row j, which may lie between two rows of pixels.
+    Stretch row(double j) const;
+    // Of a row of pixels from 2 above the face to 2 below it.
+    const Stretch& pixel_row(int j) const { return rows_[static_cast<std::size_t>(j + reach)]; }
+    static constexpr int reach = 2;
+
+  private:
+    const view::Factorisation& factorisation_;
+    const view::Face& face_;
+    std::vector<Stretch> rows_;
+};
+
+}  // namespace shearwater::image
