@@ -1,27 +1,15 @@
 #include "common/fits/tile_guard.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <array>
-#include <type_traits>
 
-#include "common/fits/inflater.h"
+#include "common/fits/big_endian.h"
+#include "common/fits/streams.h"
 #include "common/fits/tiles.h"
 
 namespace shearwater::fits {
 
 namespace {
-
-template <class Integer>
-std::int64_t big_endian(const char* bytes) {
-    std::make_unsigned_t<Integer> value = 0;
-    for (std::size_t i = 0; i < sizeof(Integer); ++i) {
-        value =
-            static_cast<std::make_unsigned_t<Integer>>(value << 8U) | static_cast<unsigned char>(bytes[i]);
-    }
-    return static_cast<Integer>(value);
-}
 
 struct Array {
     std::int64_t elements, offset;
@@ -34,53 +22,13 @@ Array array_at(const char* descriptor, bool wide) {
     return {big_endian<std::int32_t>(descriptor), big_endian<std::int32_t>(descriptor + 4)};
 }
 
-// The stream ends where its bytes do at the latest, and gives 1, 2, 4 or 8 bytes for a pixel.
-bool gzip_holds(std::span<char> stream, std::int64_t pixels) {
-    Inflater inflater;
-    std::array<unsigned char, 1 << 15> out;
-    inflater.stream.next_in = reinterpret_cast<Bytef*>(stream.data());
-    inflater.stream.avail_in = static_cast<uInt>(stream.size());
-    std::int64_t bytes = 0;
-    int outcome = inflater.ready() ? Z_OK : Z_MEM_ERROR;
-    while (outcome == Z_OK && bytes <= 8 * pixels) {
-        inflater.stream.next_out = out.data();
-        inflater.stream.avail_out = static_cast<uInt>(out.size());
-        outcome = inflate(&inflater.stream, Z_NO_FLUSH);
-        bytes += static_cast<std::int64_t>(out.size() - inflater.stream.avail_out);
-    }
-    return outcome == Z_STREAM_END &&
-           (bytes == pixels || bytes == 2 * pixels || bytes == 4 * pixels || bytes == 8 * pixels);
-}
-
-// An HCOMPRESS stream begins with 2 bytes of magic, two lengths, a scale, a sum, and how many bits its
-// three quadrants have.
-bool hcompress_holds(std::span<const char> stream, std::int64_t pixels) {
-    constexpr std::size_t start = 2 + 4 + 4 + 4 + 8 + 3;
-    if (stream.size() < start) {
-        return false;
-    }
-    const std::int64_t nx = big_endian<std::int32_t>(stream.data() + 2);
-    const std::int64_t ny = big_endian<std::int32_t>(stream.data() + 6);
-    const auto bits = stream.subspan(22, 3);
-    return nx > 0 && ny > 0 && nx * ny <= pixels &&
-           std::all_of(bits.begin(), bits.end(), [](char c) { return c >= 0 && c < 64; });
-}
-
-// A PLIO line list has its length in its third word, or in its fourth and fifth.
-bool plio_holds(std::span<const char> stream) {
-    constexpr std::size_t start = 10;
-    if (stream.size() < start) {
-        return false;
-    }
-    const auto word = [&](std::size_t i) { return big_endian<std::int16_t>(stream.data() + 2 * i); };
-    const std::int64_t length = word(2) > 0 ? word(2) : word(4) * 32768 + word(3);
-    return length >= 0 && word(1) >= 0 && 2 * length <= static_cast<std::int64_t>(stream.size());
-}
-
 }  // namespace
 
 TileGuard::TileGuard(const Hdu& hdu, std::vector<ArrayColumn> columns)
-    : axes_(hdu.axes), steps_(tile_lengths(hdu)), columns_(std::move(columns)) {
+    : axes_(hdu.axes),
+      steps_(tile_lengths(hdu)),
+      columns_(std::move(columns)),
+      rice_(rice_parameters(hdu.header)) {
     const Table table = table_of(hdu);
     rows_offset_ = hdu.header.data_offset();
     row_bytes_ = table.row_bytes;
@@ -98,6 +46,22 @@ std::int64_t TileGuard::pixels_of(std::int64_t tile) const {
         tile /= tiles;
     }
     return pixels;
+}
+
+bool TileGuard::stream_holds(ArrayColumn::Stream kind, std::span<char> stream, std::int64_t pixels) const {
+    switch (kind) {
+        case ArrayColumn::Stream::gzip:
+            return gzip_holds(stream, pixels);
+        case ArrayColumn::Stream::rice:
+            return rice_holds(stream, pixels, rice_.pixel_bytes, rice_.block);
+        case ArrayColumn::Stream::hcompress:
+            return hcompress_holds(stream, pixels);
+        case ArrayColumn::Stream::plio:
+            return plio_holds(stream);
+        case ArrayColumn::Stream::other:
+            break;
+    }
+    return true;
 }
 
 std::optional<std::string> TileGuard::fault(const Bytes& bytes, std::int64_t tile) const {
@@ -125,9 +89,7 @@ std::optional<std::string> TileGuard::fault(const Bytes& bytes, std::int64_t til
         if (!bytes.read(heap_offset_ + array.offset, stream)) {
             return "cannot be read";
         }
-        const bool holds = column.stream == ArrayColumn::Stream::gzip        ? gzip_holds(stream, pixels)
-                           : column.stream == ArrayColumn::Stream::hcompress ? hcompress_holds(stream, pixels)
-                                                                             : plio_holds(stream);
+        const bool holds = stream_holds(column.stream, stream, pixels);
         if (!holds) {
             return "is damaged";
         }

@@ -69,9 +69,10 @@ ArrayColumn::Stream stream_of(const Header& header, int field) {
     if (column != "COMPRESSED_DATA") {
         return ArrayColumn::Stream::other;
     }
-    return codec == "HCOMPRESS_1" ? ArrayColumn::Stream::hcompress
-           : codec == "PLIO_1"    ? ArrayColumn::Stream::plio
-                                  : ArrayColumn::Stream::other;
+    if (codec.starts_with("RICE")) {
+        return ArrayColumn::Stream::rice;
+    }
+    return codec == "PLIO_1" ? ArrayColumn::Stream::plio : ArrayColumn::Stream::hcompress;
 }
 
 // The columns of variable-length arrays; empty where a TFORM makes no sense or they outgrow the row.
@@ -107,14 +108,16 @@ std::vector<ArrayColumn> array_columns(const Header& header, std::int64_t row_by
     return columns;
 }
 
-// Rice's block of pixels and bytes of a pixel, by which its decoder counts.
-bool rice_parameters_hold(const Header& header) {
-    const std::int64_t block = header.has("ZVAL1") ? header.integer("ZVAL1").value_or(0) : 32;
-    const std::int64_t bytes = header.has("ZVAL2") ? header.integer("ZVAL2").value_or(0) : 4;
-    return (block == 16 || block == 32) && (bytes == 1 || bytes == 2 || bytes == 4 || bytes == 8);
-}
-
 }  // namespace
+
+RiceParameters rice_parameters(const Header& header) {
+    const auto value = [&](const char* keyword, int usual) {
+        return header.has(keyword)
+                   ? static_cast<int>(std::clamp<std::int64_t>(header.integer(keyword).value_or(0), 0, 99))
+                   : usual;
+    };
+    return {.pixel_bytes = value("ZVAL2", 4), .block = value("ZVAL1", 32)};
+}
 
 base::Status read_compressed_shape(Hdu& hdu, const std::string& operation) {
     const Header& header = hdu.header;
@@ -129,7 +132,10 @@ base::Status read_compressed_shape(Hdu& hdu, const std::string& operation) {
                            "HDU " + std::to_string(hdu.number) + ": unsupported compression \"" +
                                base::printable(codec, 20) + "\"");
     }
-    if (codec.starts_with("RICE") && !rice_parameters_hold(header)) {
+    const RiceParameters rice = rice_parameters(header);
+    const bool possible = (rice.pixel_bytes == 1 || rice.pixel_bytes == 2 || rice.pixel_bytes == 4) &&
+                          (rice.block == 16 || rice.block == 32);
+    if (codec.starts_with("RICE") && !possible) {
         return corrupt(hdu, operation, "the parameters of its compression are impossible");
     }
     const auto bitpix = header.integer("ZBITPIX").value_or(0);

@@ -24,6 +24,8 @@ struct Table {
 };
 Table table_of(const Hdu& hdu);
 
+RiceParameters rice_parameters(const Header& header);
+
 // A guard over the tiles' bytes; an error where the table's columns make no sense.
 base::Result<TileGuard> guard_tiles(const Hdu& hdu, const std::string& operation);
 
