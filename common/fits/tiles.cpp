@@ -165,7 +165,7 @@ base::Status read_compressed_shape(Hdu& hdu, const std::string& operation) {
                                ": no possible size of a tile");
         }
         tile *= step;
-        tiles *= (length + step - 1) / step;
+        tiles *= 1 + (length - 1) / step;
     }
     hdu.bitpix = static_cast<int>(bitpix);
     const Table table = table_of(hdu);
