@@ -166,10 +166,10 @@ void Session::on_frame(const wire::Message& message, wire::Time now) {
     }
     const Seconds latency = now - sent->at;
     const double server_seconds = std::max(0.0, frame.stats().total_seconds());
-    if (sent->revision > answered_) {
+    if (sent->revision > answered_ && sent->tree_ready) {
         meter_.count(now, latency, message.payload_size());
     }
-    if (sent->revision == revision_ && sent->revision == answered_ + 1) {
+    if (sent->tree_ready && sent->revision == revision_ && sent->revision == answered_ + 1) {
         notice_link_speed(message.payload_size(), latency.count() - server_seconds);
     }
     frame_ = FrameNote{sent->revision,         sent->size,    sent->quality, std::move(*missing),
@@ -240,7 +240,7 @@ void Session::send_view(wire::Time now) {
                           .quality = quality_,
                           .deflate = deflate_};
     effects_.push_back(wire::Send{link_, wire::message(wire::to_wire(view))});
-    sent_.push_back({revision_, view.size, view.quality, now});
+    sent_.push_back({revision_, view.size, view.quality, now, tree_.nodes.empty() || tree_.ready});
     sent_at_ = now;
     unsent_ = false;
 }

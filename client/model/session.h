@@ -70,6 +70,7 @@ class Session {
         view::ImageSize size;
         view::Quality quality;
         wire::Time at;
+        bool tree_ready;  // else its picture had to wait for the cube, which is no latency
     };
 
     void dial(wire::Time now);

@@ -79,8 +79,7 @@ void App::collect() {
             const bool is_another = known_lattice_ && (known_lattice_->n != desk_.lattice().n ||
                                                        known_lattice_->spacing != desk_.lattice().spacing);
             if (is_another) {
-                desk_.wish.viewpoint =
-                    model::Viewpoint{.orbit = {}, .projection = desk_.wish.viewpoint.projection};
+                desk_.reset_view();
             }
             known_lattice_ = desk_.lattice();
         }
@@ -95,6 +94,7 @@ void App::collect() {
 void App::widgets() {
     desk_.dragging = false;
     desk_.retry = false;
+    desk_.escape = false;
     const ImVec2 all = ImGui::GetIO().DisplaySize;
     const float panel_size = desk_.panel ? std::min(desk_.px(panel_width), all.x / 2) : 0;
     const float status_size = desk_.px(status_height);
@@ -108,45 +108,74 @@ void App::widgets() {
 }
 
 void App::keys() {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (io.WantTextInput) {
-        return;
+    const bool typing = ImGui::GetIO().WantTextInput;
+    for (const KeyPress& press : window_.take_keys()) {
+        if (!typing) {
+            on_key(press);
+        }
     }
-    const auto pressed = [](int key, bool repeat = false) { return ImGui::IsKeyPressed(key, repeat); };
+}
+
+void App::on_key(const KeyPress& press) {
     model::Viewpoint& viewpoint = desk_.wish.viewpoint;
-    if (pressed(GLFW_KEY_TAB)) {
-        desk_.panel = !desk_.panel;
-    }
-    if (pressed(GLFW_KEY_Q) && io.KeyCtrl) {
-        window_.close();
-    }
-    if (pressed(GLFW_KEY_R)) {
-        viewpoint = model::Viewpoint{.orbit = {}, .projection = viewpoint.projection};
-    }
-    if (pressed(GLFW_KEY_P)) {
-        model::toggle_projection(viewpoint);
-    }
-    if (pressed(GLFW_KEY_C, true)) {
-        step_map(desk_.wish.tf, io.KeyShift ? -1 : 1);
-    }
-    if (pressed(GLFW_KEY_I)) {
-        reverse_map(desk_.wish.tf);
-    }
-    // A step of the arrow keys turns by 5 degrees.
-    const double step = desk_.wish.size.height * 5.0 / 180;
-    const double dx = step * (pressed(GLFW_KEY_LEFT, true) - pressed(GLFW_KEY_RIGHT, true));
-    const double dy = step * (pressed(GLFW_KEY_UP, true) - pressed(GLFW_KEY_DOWN, true));
-    if (dx != 0 || dy != 0) {
-        model::drag_orbit(viewpoint, dx, dy, desk_.wish.size);
+    const view::ImageSize& size = desk_.wish.size;
+    const auto turn = [&](int right, int down) {
+        const double step = size.height * 5.0 / 180;  // 5 degrees
+        model::drag_orbit(viewpoint, step * right, step * down, size);
         desk_.dragging = true;
-    }
-    const bool in = pressed(GLFW_KEY_EQUAL, true) || pressed(GLFW_KEY_KP_ADD, true);
-    const bool out = pressed(GLFW_KEY_MINUS, true) || pressed(GLFW_KEY_KP_SUBTRACT, true);
-    if (desk_.has_cube() && in != out) {
-        const auto& size = desk_.wish.size;
-        model::zoom(viewpoint, in ? 0.9 : 1 / 0.9, size.width / 2.0, size.height / 2.0, size,
-                    desk_.lattice());
-        desk_.dragging = true;
+    };
+    const auto zoom = [&](double factor) {
+        if (desk_.has_cube()) {
+            model::zoom(viewpoint, factor, size.width / 2.0, size.height / 2.0, size, desk_.lattice());
+            desk_.dragging = true;
+        }
+    };
+    switch (press.key) {
+        case GLFW_KEY_TAB:
+            desk_.panel = !desk_.panel;
+            break;
+        case GLFW_KEY_ESCAPE:
+            desk_.escape = true;
+            break;
+        case GLFW_KEY_R:
+            desk_.reset_view();
+            break;
+        case GLFW_KEY_P:
+            model::toggle_projection(viewpoint);
+            break;
+        case GLFW_KEY_C:
+            step_map(desk_.wish.tf, press.shift ? -1 : 1);
+            break;
+        case GLFW_KEY_I:
+            reverse_map(desk_.wish.tf);
+            break;
+        case GLFW_KEY_LEFT:
+            turn(1, 0);
+            break;
+        case GLFW_KEY_RIGHT:
+            turn(-1, 0);
+            break;
+        case GLFW_KEY_UP:
+            turn(0, 1);
+            break;
+        case GLFW_KEY_DOWN:
+            turn(0, -1);
+            break;
+        case GLFW_KEY_EQUAL:
+        case GLFW_KEY_KP_ADD:
+            zoom(0.9);
+            break;
+        case GLFW_KEY_MINUS:
+        case GLFW_KEY_KP_SUBTRACT:
+            zoom(1 / 0.9);
+            break;
+        case GLFW_KEY_Q:
+            if (press.control) {
+                window_.close();
+            }
+            break;
+        default:
+            break;
     }
 }
 

@@ -26,6 +26,7 @@ class App {
     void collect();
     void widgets();
     void keys();
+    void on_key(const KeyPress& press);
     void send_wish();
     bool is_settled() const;
 

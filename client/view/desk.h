@@ -25,11 +25,13 @@ struct Desk {
     model::Wish wish;
     bool dragging = false;  // something is held down while it changes the wish
     bool retry = false;     // asked to dial now
+    bool escape = false;    // the key was pressed in this pass
     bool panel = true;
     int ramp_end = -1;  // the ramp's end being dragged: 0, 1, or none
 
     float px(float nominal) const { return nominal * scale; }
     bool has_cube() const { return status.cube.has_value(); }
+    void reset_view() { wish.viewpoint = {.orbit = {}, .projection = wish.viewpoint.projection}; }
     const view::Lattice& lattice() const { return status.cube->lattice; }
 };
 

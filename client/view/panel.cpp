@@ -110,7 +110,7 @@ void camera_section(Desk& desk) {
     }
     ImGui::EndDisabled();
     if (ImGui::Button("Reset view", {-FLT_MIN, 0})) {
-        viewpoint = model::Viewpoint{.orbit = {}, .projection = viewpoint.projection};
+        desk.reset_view();
     }
 }
 
@@ -127,6 +127,9 @@ void map_choice(Desk& desk, const std::string& current, const std::string& suffi
     ImGui::SetNextItemWidth(-FLT_MIN);
     if (!ImGui::BeginCombo("##map", shown.c_str(), ImGuiComboFlags_HeightLargest)) {
         return;
+    }
+    if (desk.escape) {
+        ImGui::CloseCurrentPopup();
     }
     for (const std::string& name : view::colour_map_names()) {
         if (ImGui::Selectable(("##" + name).c_str(), name + suffix == current, 0, {0, row})) {

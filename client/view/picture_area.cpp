@@ -94,7 +94,7 @@ void mouse(Desk& desk, ImVec2 from, ImVec2 size) {
     if (ImGui::IsItemHovered()) {
         wheel(desk, from, to_pixels);
         if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-            desk.wish.viewpoint = model::Viewpoint{.orbit = {}, .projection = desk.wish.viewpoint.projection};
+            desk.reset_view();
         }
     }
 }

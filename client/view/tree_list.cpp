@@ -60,9 +60,9 @@ const char* word_for_role(pb::Role role) {
 void tooltip(const model::Node& node) {
     const std::string memory =
         node.memory_bytes > 0 ? bytes_text(static_cast<double>(node.memory_bytes)) : "-";
-    ImGui::SetTooltip("%s, place %u\nbox %s\nmemory %s%s%s", word_for_role(node.role), node.place,
-                      volume::to_string(node.box).c_str(), memory.c_str(), node.error.empty() ? "" : "\n",
-                      node.error.c_str());
+    ImGui::SetTooltip("%s\n%s, place %u\nbox %s\nmemory %s%s%s", node.name.c_str(), word_for_role(node.role),
+                      node.place, volume::to_string(node.box).c_str(), memory.c_str(),
+                      node.error.empty() ? "" : "\n", node.error.c_str());
 }
 
 void node_line(const Desk& desk, const model::Node& node) {
@@ -70,8 +70,8 @@ void node_line(const Desk& desk, const model::Node& node) {
     const float indent = desk.px(12) * static_cast<float>(std::min(node.depth, 8));
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + indent);
     dot(desk, colour_of_phase(node.phase));
-    const std::string name =
-        node.name.empty() ? fmt::format("{} {}", word_for_role(node.role), node.place) : node.name;
+    const std::string name = node.name.empty() ? fmt::format("{} {}", word_for_role(node.role), node.place)
+                                               : node.name.substr(0, node.name.find(" ("));
     const bool under_way = node.phase == pb::PHASE_COUNTING || node.phase == pb::PHASE_LOADING;
     const char* phase = word_for_phase(node.phase);
     const float right = ImGui::GetWindowContentRegionMax().x;

@@ -54,6 +54,8 @@ Window::Window(GLFWwindow* window, float scale) : window_(window), scale_(scale)
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
     fonts_ = theme::apply(scale_);
+    glfwSetWindowUserPointer(window_, this);
+    glfwSetKeyCallback(window_, on_key);  // ImGui's, set now, calls it too
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
     ImGui_ImplOpenGL3_Init("#version 150");
 }
@@ -74,6 +76,13 @@ void Window::close() {
 }
 void Window::wake() {
     glfwPostEmptyEvent();
+}
+
+void Window::on_key(GLFWwindow* window, int key, int, int action, int mods) {
+    if (action != GLFW_RELEASE) {
+        static_cast<Window*>(glfwGetWindowUserPointer(window))
+            ->keys_.push_back({key, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0});
+    }
 }
 
 void Window::begin(double wait_seconds) {

@@ -2,6 +2,8 @@
 // The operating system's window with a graphics context and Dear ImGui in it.
 
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "client/view/theme.h"
 #include "common/base/result.h"
@@ -17,6 +19,12 @@ struct WindowOptions {
     float scale = 0;  // 0: the display's
 };
 
+// A key that went down, or repeats.
+struct KeyPress {
+    int key;  // GLFW's number
+    bool shift, control;
+};
+
 // One at a time; everything from the thread that opened it, except wake().
 class Window {
   public:
@@ -29,6 +37,8 @@ class Window {
     void close();
     // Waits for input, a wake() or the time to pass, then begins a pass of widgets.
     void begin(double wait_seconds);
+    // The keys pressed since the last call, however short. (Dear ImGui sees only what is down in a pass.)
+    std::vector<KeyPress> take_keys() { return std::exchange(keys_, {}); }
     // Draws the pass to the hidden buffer; the picture is seen after show().
     void draw();
     image::Image<image::Rgba8> read_pixels() const;
@@ -41,10 +51,12 @@ class Window {
 
   private:
     Window(GLFWwindow* window, float scale);
+    static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
 
     GLFWwindow* window_;
     float scale_;
     theme::Fonts fonts_;
+    std::vector<KeyPress> keys_;
 };
 
 }  // namespace shearwater::ui

@@ -89,6 +89,24 @@ bool same_picture(const Picture& a, const Picture& b) {
     return true;
 }
 
+// The middle of the left-most white disc in the panel's plot.
+std::optional<std::pair<int, int>> ramp_handle(const Picture& screen) {
+    for (int x = 676; x < 900; ++x) {
+        for (int y = 310; y < 500; ++y) {
+            bool is_disc = true;
+            for (int dy = -1; dy <= 2; ++dy) {
+                for (int dx = -1; dx <= 2; ++dx) {
+                    is_disc = is_disc && brightness(screen.at(x + dx, y + dy)) > 600;
+                }
+            }
+            if (is_disc) {
+                return std::pair{x, y};
+            }
+        }
+    }
+    return std::nullopt;
+}
+
 // A port that was free a moment ago.
 int free_port() {
     const int s = socket(AF_INET, SOCK_STREAM, 0);
@@ -151,7 +169,7 @@ class WindowTest : public testing::Test {
         Picture last = display_->grab();
         int same = 0;
         while (same < 8) {
-            std::this_thread::sleep_for(150ms);
+            std::this_thread::sleep_for(120ms);
             Picture now = display_->grab();
             same = holds(now) && same_picture(now, last) ? same + 1 : 0;
             last = std::move(now);
@@ -237,20 +255,10 @@ TEST_F(WindowTest, ColoursAndOpacityChangeThePicture) {
     display_->key("i");
     like(inferno, "inferno again");
 
-    // The ramp's lower end: found by its white handle above the colour bar, and moved to the right.
-    int handle_x = -1, handle_y = -1;
-    for (int y = 300; y < 520 && handle_x < 0; ++y) {
-        for (int x = 672; x < 900; ++x) {
-            const auto white = [&](int dx, int dy) { return brightness(inferno.at(x + dx, y + dy)) > 600; };
-            if (white(-3, 0) && white(3, 0) && white(0, -3) && white(0, 3) && white(2, 2) && white(-2, -2)) {
-                handle_x = x;
-                handle_y = y;
-                break;
-            }
-        }
-    }
-    ASSERT_GE(handle_x, 0) << "the ramp has no handle";
-    display_->drag(1, handle_x, handle_y, 90, 0);
+    // The ramp's lower end, the handle further to the left, is moved to the right.
+    const auto handle = ramp_handle(inferno);
+    ASSERT_TRUE(handle) << "the ramp has no handle";
+    display_->drag(1, handle->first, handle->second, 90, 0);
     const Picture thinner = other_than(inferno, "the ramp's lower end moved");
     EXPECT_LT(light_of(thinner).sum, light_of(inferno).sum);
 }

@@ -190,12 +190,12 @@ void Display::drag(int button, int x, int y, int dx, int dy, const std::string& 
     if (!held_key.empty()) {
         add({"keydown", held_key, "sleep", "0.1"});
     }
-    add({"mousedown", std::to_string(button), "sleep", "0.1"});
+    add({"mousedown", std::to_string(button), "sleep", "0.25"});
     for (int i = 1; i <= steps; ++i) {
         add({"mousemove", std::to_string(x + dx * i / steps), std::to_string(y + dy * i / steps), "sleep",
              "0.03"});
     }
-    add({"sleep", "0.1", "mouseup", std::to_string(button)});
+    add({"sleep", "0.25", "mouseup", std::to_string(button)});
     if (!held_key.empty()) {
         add({"sleep", "0.1", "keyup", held_key});
     }
@@ -205,7 +205,7 @@ void Display::drag(int button, int x, int y, int dx, int dy, const std::string& 
 
 void Display::click(int x, int y, int times) {
     xdotool({"mousemove", std::to_string(x), std::to_string(y), "sleep", "0.1", "click", "--repeat",
-             std::to_string(times), "--delay", "80", "1"});
+             std::to_string(times), "--delay", "120", "1"});
     park();
 }
 
