@@ -36,7 +36,10 @@ Run add_sample(CLI::App& app) {
     app.footer("Samples:" + kinds);
     app.add_option("name", flags->name, "which sample")->required();
     app.add_option("-o,--output", flags->output, "the FITS file to write")->required();
-    app.add_option("--size", flags->size, "voxels along x, y and z")->expected(3)->capture_default_str();
+    app.add_option("--size", flags->size, "voxels along x, y and z")
+        ->expected(3)
+        ->allow_extra_args(false)
+        ->capture_default_str();
     app.add_option("--seed", flags->seed, "of its randomness")->capture_default_str();
     return [flags] {
         const auto done = sample(*flags);

@@ -27,6 +27,7 @@ void CubeOptions::add_to(CLI::App& app) {
         ->group(group);
     app.add_option("--range", range, "the values shown as 0 and 1; else by percentile")
         ->expected(2)
+        ->allow_extra_args(false)
         ->group(group);
     app.add_option("--percentile", percentile,
                    "per cent of the voxels kept between the limits, the rest cut equally")
@@ -43,6 +44,7 @@ void CubeOptions::add_to(CLI::App& app) {
         ->group(group);
     app.add_option("--spacing", spacing, "world units between voxels along x, y and z")
         ->expected(3)
+        ->allow_extra_args(false)
         ->group(group);
 }
 

@@ -9,6 +9,7 @@ void TreeOptions::add_to(CLI::App& app) {
     auto* full = app.add_option("--tree", tree, "branching and levels: B^(LEVELS-1) renderers")
                      ->delimiter(',')
                      ->expected(2)
+                     ->allow_extra_args(false)
                      ->type_name("B,LEVELS")
                      ->default_str("2,2")
                      ->group(group);
