@@ -4,10 +4,8 @@
 
 #include <cmath>
 #include <limits>
-#include <string>
+#include <span>
 
-#include "common/fits/cube.h"
-#include "common/volume/statistics.h"
 #include "tests/support/reference_raycaster.h"
 #include "tests/support/reference_views.h"
 
@@ -22,45 +20,22 @@ using view::Lattice;
 using view::Projection;
 using view::Vec3;
 
-constexpr double normal = 1;
-constexpr double high = 1.5;
-
-// A cube with all it takes to draw it in both ways.
-struct Scene {
-    FloatCube cube;
-    Vec3 spacing{1, 1, 1};
-    volume::Mapping mapping{};
-    view::TransferFunction tf = ramp_to(0.15);
-
-    Lattice lattice() const { return {cube.n(), spacing}; }
-};
-
-struct Match {
-    double at_normal, at_high;
-};
-
-Match match(Scene& scene, const Camera& camera, const ImageSize& size) {
-    base::Workers workers;
-    const auto volume = bricks_of(scene.cube, workers, scene.mapping);
-    const auto truth =
-        in_8_bits(cast_rays(scene.cube, scene.spacing, scene.mapping, scene.tf, camera, size, workers));
-    const auto at = [&](double resolution) {
-        return psnr(
-            in_8_bits(picture_of(volume, scene.lattice(), scene.tf, camera, size, workers, resolution)),
-            truth);
-    };
-    const Match found{at(normal), at(high)};
-    testing::Test::RecordProperty("normal", std::to_string(found.at_normal));
-    testing::Test::RecordProperty("high", std::to_string(found.at_high));
-    return found;
-}
-
 TEST(SmoothCube, IsTheRayCastersPicture) {
     Scene scene{.cube = smooth_cube({61, 47, 53})};
-    for (const NamedView& view : views_from(scene.lattice(), 30, 20)) {
+    const auto views = views_from(scene.lattice(), 30, 20);
+    for (const NamedView& view : std::span(views).first(3)) {
         const Match found = match(scene, view.camera, {512, 512});
         EXPECT_GE(found.at_high, 52) << view.name;
         EXPECT_GE(found.at_normal, 52) << view.name;
+    }
+}
+
+// Seen along an axis, a cube's outline is a step from nothing to its whole depth.
+TEST(SmoothCube, EndsWhereItEnds) {
+    Scene scene{.cube = smooth_cube({61, 47, 53}, 2)};
+    const Camera camera = view::camera_on({0, 0}, scene.lattice(), Projection::parallel);
+    for (const ImageSize& size : {ImageSize{200, 200}, {201, 203}, {180, 170}}) {
+        EXPECT_GE(match(scene, camera, size).at_normal, 55) << size.width;
     }
 }
 
@@ -124,7 +99,7 @@ TEST(WideView, HasNoSeamBetweenFaces) {
     for (const double azimuth : {45.0, 20.0, 160.0}) {
         const Camera camera =
             view::camera_on({azimuth, 35, 6, {3, 2, -4}}, lattice, Projection::perspective, 120);
-        ASSERT_GE(view::factorise(camera, size, lattice, normal).faces.size(), 3U);
+        ASSERT_GE(view::factorise(camera, size, lattice, 1).faces.size(), 3U);
         const auto truth = cast_rays(cube, {1, 1, 1}, {}, ramp_to(0.15), camera, size, workers);
         const auto picture = picture_of(volume, lattice, ramp_to(0.15), camera, size, workers);
         for (std::size_t i = 0; i < truth.pixels().size(); ++i) {
@@ -183,41 +158,6 @@ TEST(PermutedAxes, GiveTheSamePicture) {
         }
     }
 }
-
-class RealCube : public testing::TestWithParam<const char*> {};
-
-TEST_P(RealCube, IsTheRayCastersPicture) {
-    const auto path = std::string(SHEARWATER_SHARED_DATA) + "/" + GetParam() + ".fits";
-    auto file = fits::Cube::open(path);
-    if (!file && file.error().code != base::Code::corrupt) {
-        GTEST_SKIP() << "no sample data: " << file.error().message();
-    }
-    ASSERT_TRUE(file.has_value()) << file.error().message();
-    Scene scene{.cube = FloatCube(file->info().n)};
-    ASSERT_TRUE(file->read(volume::whole(scene.cube.n()), scene.cube.values()).has_value());
-    volume::Histogram histogram;
-    histogram.add(scene.cube.values());
-    const volume::Limits limits = volume::percentile_limits(histogram, 99.5);
-    scene.mapping.lo = limits.lo;
-    scene.mapping.hi = limits.hi;
-
-    const Lattice lattice = scene.lattice();
-    for (const auto& [azimuth, elevation] : {std::pair{30.0, 20.0}, {120.0, -35.0}, {255.0, 60.0}}) {
-        for (const auto projection : {Projection::perspective, Projection::parallel}) {
-            const Camera camera = view::camera_on({azimuth, elevation}, lattice, projection);
-            const Match found = match(scene, camera, {512, 512});
-            EXPECT_GE(found.at_normal, 38) << azimuth << ", " << elevation;
-            EXPECT_GE(found.at_high, 40) << azimuth << ", " << elevation;
-            std::printf("%s from %.0f, %.0f %s: %.1f dB, high %.1f dB\n", GetParam(), azimuth, elevation,
-                        projection == Projection::parallel ? "parallel" : "perspective", found.at_normal,
-                        found.at_high);
-        }
-    }
-}
-
-INSTANTIATE_TEST_SUITE_P(SharedData, RealCube,
-                         testing::Values("ngc6946", "l1448_13co", "WEIN069", "lidc2_ct"),
-                         [](const auto& tested) { return std::string(tested.param); });
 
 }  // namespace
 }  // namespace shearwater::test

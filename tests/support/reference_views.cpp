@@ -5,6 +5,7 @@
 
 #include "common/base/check.h"
 #include "common/image/warp.h"
+#include "tests/support/reference_raycaster.h"
 
 namespace shearwater::test {
 
@@ -71,6 +72,19 @@ view::TransferFunction ramp_to(double opacity) {
     const auto inferno = view::colour_map("inferno");
     base::check(inferno.has_value(), "inferno is a colour map");
     return {.opacity_pins = {view::Ramp{0.1, 0, 1, opacity}}, .colour_pins = *inferno};
+}
+
+Match match(Scene& scene, const view::Camera& camera, const view::ImageSize& size) {
+    base::Workers workers;
+    const auto volume = bricks_of(scene.cube, workers, scene.mapping);
+    const auto truth =
+        in_8_bits(cast_rays(scene.cube, scene.spacing, scene.mapping, scene.tf, camera, size, workers));
+    const auto at = [&](view::Quality quality) {
+        return psnr(in_8_bits(picture_of(volume, scene.lattice(), scene.tf, camera, size, workers,
+                                         view::resolution(quality))),
+                    truth);
+    };
+    return {at(view::Quality::normal), at(view::Quality::high)};
 }
 
 }  // namespace shearwater::test

@@ -9,6 +9,7 @@
 #include "common/view/camera.h"
 #include "renderer/shear/brick_volume.h"
 #include "renderer/shear/render.h"
+#include "tests/support/reference_cubes.h"
 
 namespace shearwater::test {
 
@@ -33,5 +34,21 @@ image::Image<image::Rgba8> in_8_bits(const image::Image<image::RgbaF>& picture);
 
 // A ramp from (0.1, 0) to (1, opacity), inferno.
 view::TransferFunction ramp_to(double opacity);
+
+// A cube with all it takes to draw it in both ways.
+struct Scene {
+    FloatCube cube;
+    view::Vec3 spacing{1, 1, 1};
+    volume::Mapping mapping{};
+    view::TransferFunction tf = ramp_to(0.15);
+
+    view::Lattice lattice() const { return {cube.n(), spacing}; }
+};
+
+// How near the engine's picture comes to the ray caster's, as they are shown, in dB.
+struct Match {
+    double at_normal, at_high;
+};
+Match match(Scene& scene, const view::Camera& camera, const view::ImageSize& size);
 
 }  // namespace shearwater::test

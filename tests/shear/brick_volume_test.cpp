@@ -1,0 +1,155 @@
+#include "renderer/shear/brick_volume.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/support/reference_cubes.h"
+
+namespace shearwater::shear {
+namespace {
+
+using test::FloatCube;
+using volume::Box;
+using volume::Index3;
+
+// A cube that notes what is read of it, and fails at the read of a given number.
+class WatchedCube final : public volume::VoxelSource {
+  public:
+    explicit WatchedCube(FloatCube& cube, int failing = -1) : cube_(cube), failing_(failing) {}
+    base::Status read(const Box& box, std::span<float> out) override {
+        largest = std::max(largest, out.size());
+        total += out.size();
+        if (reads++ == failing_) {
+            return base::error(base::Code::io, "read", "broken");
+        }
+        return cube_.read(box, out);
+    }
+    std::size_t largest = 0, total = 0;
+    int reads = 0;
+
+  private:
+    FloatCube& cube_;
+    int failing_;
+};
+
+template <class Code>
+void expect_codes(const BrickVolume& volume, std::span<const Code> codes, const FloatCube& cube) {
+    std::int64_t cells = 0;
+    for (const Brick& brick : volume.bricks()) {
+        ASSERT_TRUE(volume.box().contains(brick.box));
+        cells += brick.box.cells(0) * brick.box.cells(1) * brick.box.cells(2);
+        std::uint16_t min = std::numeric_limits<std::uint16_t>::max(), max = 0;
+        bool blanks = false;
+        std::size_t n = brick.first;
+        for (std::int64_t z = brick.box.lo[2]; z <= brick.box.hi[2]; ++z) {
+            for (std::int64_t y = brick.box.lo[1]; y <= brick.box.hi[1]; ++y) {
+                for (std::int64_t x = brick.box.lo[0]; x <= brick.box.hi[0]; ++x, ++n) {
+                    const auto code = volume.mapping().code(static_cast<double>(cube.at(x, y, z)));
+                    ASSERT_EQ(codes[n], code);
+                    blanks = blanks || code == 0;
+                    min = code == 0 ? min : std::min(min, code);
+                    max = std::max(max, code);
+                }
+            }
+        }
+        EXPECT_EQ(brick.min, min);
+        EXPECT_EQ(brick.max, max);
+        EXPECT_EQ(brick.has_blanks, blanks);
+    }
+    EXPECT_EQ(cells, volume.box().cells(0) * volume.box().cells(1) * volume.box().cells(2));
+}
+
+FloatCube spotted_cube(const Index3& n) {
+    FloatCube cube = test::noise_cube(n);
+    for (std::size_t i = 0; i < cube.values().size(); i += 1009) {
+        cube.values()[i] = std::numeric_limits<float>::quiet_NaN();
+    }
+    return cube;
+}
+
+TEST(BrickVolume, HoldsEveryVoxelsCode) {
+    base::Workers workers(3);
+    FloatCube cube = spotted_cube({70, 41, 66});
+    for (const Box& box : {volume::whole(cube.n()), Box{{31, 0, 33}, {33, 40, 65}}, Box{{5, 6, 7}, {6, 7, 8}},
+                           Box{{32, 0, 0}, {64, 32, 32}}}) {
+        for (const int bits : {8, 16}) {
+            for (const std::size_t slab : {1U, 100U, 4000U, 50000U, 1U << 25}) {
+                WatchedCube source(cube);
+                const auto volume =
+                    BrickVolume::load(source, box, cube.n(), {.bits = bits}, workers, {}, {}, slab);
+                ASSERT_TRUE(volume.has_value());
+                EXPECT_EQ(source.total, static_cast<std::size_t>(box.voxels()));  // each voxel is read once
+                EXPECT_LE(source.largest * sizeof(float), std::max<std::size_t>(slab, sizeof(float)));
+                if (slab == 4000U || slab == 1U) {
+                    bits == 8 ? expect_codes(*volume, volume->codes8(), cube)
+                              : expect_codes(*volume, volume->codes16(), cube);
+                }
+                if (box.voxels() > 10000 && slab == 1U) {
+                    break;
+                }
+            }
+        }
+    }
+}
+
+TEST(BrickVolume, LaysBricksOnTheCubesGrid) {
+    base::Workers workers(1);
+    FloatCube cube = test::noise_cube({70, 41, 66});
+    const auto volume = test::bricks_of(cube, {{20, 0, 32}, {69, 40, 65}}, workers);
+    EXPECT_EQ(volume.grid(), (Index3{3, 2, 2}));
+    EXPECT_EQ(volume.brick(0, 0, 0).box, (Box{{20, 0, 32}, {32, 32, 64}}));
+    EXPECT_EQ(volume.brick(2, 1, 1).box, (Box{{64, 32, 64}, {69, 40, 65}}));
+}
+
+TEST(BrickVolume, TakesLittleMoreThanItsVoxels) {
+    base::Workers workers;
+    FloatCube cube = test::noise_cube({200, 161, 130});
+    const auto volume = test::bricks_of(cube, workers);
+    EXPECT_LT(static_cast<double>(volume.bytes()), 1.2 * static_cast<double>(cube.values().size()));
+}
+
+TEST(BrickVolume, RefusesBoxesThatAreNone) {
+    base::Workers workers(1);
+    FloatCube cube = test::noise_cube({10, 10, 10});
+    for (const Box& box : {Box{{0, 0, 0}, {10, 9, 9}}, Box{{-1, 0, 0}, {9, 9, 9}}, Box{{3, 0, 0}, {3, 9, 9}},
+                           Box{{5, 0, 0}, {3, 9, 9}}}) {
+        const auto volume = BrickVolume::load(cube, box, cube.n(), {}, workers);
+        ASSERT_TRUE(volume.has_error()) << to_string(box);
+        EXPECT_EQ(volume.error().code, base::Code::invalid_argument);
+    }
+}
+
+TEST(BrickVolume, PassesOnAFailedReadWhicheverItIs) {
+    base::Workers workers(1);
+    FloatCube cube = test::noise_cube({20, 20, 20});
+    for (int failing = 0; failing < 20; ++failing) {
+        WatchedCube source(cube, failing);
+        const auto volume =
+            BrickVolume::load(source, volume::whole(cube.n()), cube.n(), {}, workers, {}, {}, 1600);
+        ASSERT_TRUE(volume.has_error()) << failing;
+        EXPECT_EQ(volume.error().code, base::Code::io);
+    }
+}
+
+TEST(BrickVolume, StopsWhenToldAndSaysHowFarItIs) {
+    base::Workers workers(1);
+    FloatCube cube = test::noise_cube({20, 20, 20});
+    std::stop_source stop;
+    double last = 0;
+    const auto progress = [&](double share) {
+        EXPECT_GT(share, last);
+        last = share;
+        if (share > 0.5) {
+            stop.request_stop();
+        }
+    };
+    const auto volume = BrickVolume::load(cube, volume::whole(cube.n()), cube.n(), {}, workers, progress,
+                                          stop.get_token(), 1600);
+    ASSERT_TRUE(volume.has_error());
+    EXPECT_EQ(volume.error().code, base::Code::cancelled);
+    EXPECT_LT(last, 0.7);
+}
+
+}  // namespace
+}  // namespace shearwater::shear
