@@ -43,17 +43,32 @@ const char* word_for_link(Connection connection) {
     return "";
 }
 
-constexpr const char* help =
-    "Left drag          turn\n"
-    "Right drag         move (or Shift and left drag)\n"
-    "Wheel              zoom at the cursor\n"
-    "Double click, R    reset the view\n"
-    "P                  perspective or parallel\n"
-    "C, Shift C         next or previous colour map\n"
-    "I                  reverse the colour map\n"
-    "Arrows, + -        turn and zoom\n"
-    "Tab                hide this panel\n"
-    "Ctrl Q             quit";
+struct HelpLine {
+    const char* input;
+    const char* effect;
+};
+constexpr HelpLine help_lines[] = {
+    {"Left drag", "turn"},
+    {"Right drag, Shift left drag", "move"},
+    {"Wheel", "zoom at the cursor"},
+    {"Double click, R", "reset the view"},
+    {"P", "perspective or parallel"},
+    {"C, Shift C", "next, previous colour map"},
+    {"I", "reverse the colour map"},
+    {"Arrows, +, -", "turn, zoom"},
+    {"Tab", "hide or show this panel"},
+    {"Ctrl Q", "quit"},
+};
+
+void help(const Desk& desk) {
+    ImGui::BeginTooltip();
+    for (const HelpLine& line : help_lines) {
+        ImGui::TextUnformatted(line.input);
+        ImGui::SameLine(desk.px(220));
+        text(theme::muted, line.effect);
+    }
+    ImGui::EndTooltip();
+}
 
 void header(Desk& desk) {
     ImGui::PushFont(desk.fonts.bold);
@@ -64,7 +79,7 @@ void header(Desk& desk) {
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - desk.px(2));
     ImGui::Button("?", {side, side});
     if (ImGui::IsItemHovered()) {
-        ImGui::SetTooltip("%s", help);
+        help(desk);
     }
     dot(desk, colour_of_link(desk.status.connection));
     text(theme::text, word_for_link(desk.status.connection));
@@ -169,6 +184,10 @@ void figure(const Desk& desk, const std::string& value, const char* unit, float 
     ImGui::EndGroup();
 }
 
+std::string latency_text(double seconds) {
+    return seconds < 0.9995 ? fmt::format("{:.0f} ms", seconds * 1000) : fmt::format("{:.1f} s", seconds);
+}
+
 void speed_section(const Desk& desk) {
     section(desk, "SPEED");
     const model::Rates& rates = desk.status.rates;
@@ -178,7 +197,7 @@ void speed_section(const Desk& desk) {
     const bool moving = rates.frames_per_second > 0;
     figure(desk, moving ? fmt::format("{:.1f}", rates.frames_per_second) : "idle", "frames/s", left);
     ImGui::SameLine();
-    figure(desk, any ? fmt::format("{:.0f} ms", rates.latency_seconds * 1000) : "-", "latency", left + step);
+    figure(desk, any ? latency_text(rates.latency_seconds) : "-", "latency", left + step);
     ImGui::SameLine();
     figure(desk, any ? bytes_text(rates.bytes_per_frame) : "-", "a frame", left + 2 * step);
 }

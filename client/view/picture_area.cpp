@@ -88,7 +88,8 @@ void mouse(Desk& desk, ImVec2 from, ImVec2 size) {
         return;
     }
     const float to_pixels = static_cast<float>(desk.wish.size.width) / size.x;
-    if (ImGui::IsItemActive()) {
+    // In the pass that presses the button the mouse may have come from afar.
+    if (ImGui::IsItemActive() && !ImGui::IsItemActivated()) {
         drag(desk, to_pixels);
     }
     if (ImGui::IsItemHovered()) {
