@@ -1,6 +1,7 @@
 #include "deploy/one_process.h"
 
 #include <chrono>
+#include <cstdio>
 
 #include "common/base/memory.h"
 #include "common/fits/cube.h"
@@ -56,6 +57,9 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     auto source = fits::Cube::open(cube.path, cube.open_options());
     if (!source) {
         return source.error();
+    }
+    for (const std::string& note : source->info().notes) {
+        std::fprintf(stderr, "note: %s\n", note.c_str());
     }
     const view::Lattice lattice{.n = source->info().n, .spacing = cube.spacing_value()};
     const auto size = view.image_size();

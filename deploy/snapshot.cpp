@@ -80,7 +80,7 @@ base::Result<Picture> draw_on_tree(const Flags& flags, const view::TransferFunct
         return draw_over_links(flags, tf, size, *server, chosen->secret, nullptr);
     }
     auto tree = LocalTree::start(
-        {.cube = flags.cube, .tree = flags.tree, .threads = flags.threads, .log_level = "error"},
+        {.cube = flags.cube, .tree = flags.tree, .threads = flags.threads, .log_level = "warn"},
         chosen->secret);
     if (!tree) {
         return tree.error();

@@ -62,6 +62,8 @@ std::uint64_t new_epoch() {
 int serve(const std::string& program, const Flags& flags, const link::Secret& secret, fits::Cube cube,
           head::Roster roster, const wire::Address& listen) {
     link::Limits link_limits;
+    // All daemons may come at once, each with a link for its orders and one for its place.
+    link_limits.handshakes += 2 * roster.plan().nodes.size();
     link_limits.links = 2 * roster.plan().nodes.size() + head::Head::max_clients + 16;
     head::Head head(std::move(roster), limits_of(flags.cube));
     std::optional<service::Service> service;
@@ -136,7 +138,7 @@ int main(int argc, char** argv) {
     }
     flags.common.start_log(program);
     for (const std::string& note : cube->info().notes) {
-        spdlog::info("{}: {}", flags.cube.path, note);
+        spdlog::warn("{}: {}", base::printable(flags.cube.path), note);
     }
     head::Roster roster(*std::move(plan), facts_of(cube->info(), flags.cube), new_epoch(), flags.cube.bits);
     return serve(program, flags, *secret, *std::move(cube), std::move(roster), *listen);

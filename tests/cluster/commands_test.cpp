@@ -153,7 +153,11 @@ TEST(SharedData, GivesAPictureOrOneClearLine) {
         if (outcome.status == 0) {
             ++pictures;
             EXPECT_TRUE(image::read_png(png)) << entry.path();
-            EXPECT_TRUE(outcome.err.empty()) << entry.path() << "\n" << outcome.err;
+            std::istringstream lines(outcome.err);
+            for (std::string line; std::getline(lines, line);) {
+                // What was repaired or assumed is said.
+                EXPECT_NE(line.find("warning: "), std::string::npos) << entry.path() << "\n" << line;
+            }
         } else {
             ++refusals;
             EXPECT_EQ(outcome.status, 2) << entry.path() << "\n" << outcome.err;

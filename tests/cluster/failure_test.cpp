@@ -93,6 +93,20 @@ TEST_F(Failures, ACompositorThatDiesTakesItsBoxAlongAndBringsItBack) {
     expect_whole_picture();
 }
 
+// Stopped, not dead: its links fall silent. When it goes on, it finds its way back by itself.
+TEST_F(Failures, ARendererThatStandsStillIsGivenUpAndComesBack) {
+    ASSERT_NO_FATAL_FAILURE(start(2, 2, {33, 35, 37}));
+    const tree::Place victim = 1;
+    ASSERT_EQ(kill(pid_of(victim), SIGSTOP), 0);
+    const auto shot = client_->next(client_->ask(view_));
+    ASSERT_TRUE(shot);
+    ASSERT_EQ(shot->missing.size(), 1U);
+    EXPECT_EQ(shot->missing[0], plan_.at(victim).box);
+    ASSERT_EQ(kill(pid_of(victim), SIGCONT), 0);
+    ASSERT_TRUE(client_->wait_until([&] { return client_->state().ready(); }));
+    expect_whole_picture();
+}
+
 TEST_F(Failures, TheServersEndIsSaid) {
     ASSERT_NO_FATAL_FAILURE(start(2, 2, {17, 19, 23}));
     ASSERT_EQ(kill(tree_->server_id(), SIGKILL), 0);
