@@ -98,6 +98,13 @@ base::Status validate(const Camera& camera, const ImageSize& size) {
         std::int64_t{size.width} * size.height > max_pixels) {
         return refuse("a picture is 1 to 8192 pixels a side and at most 2^25 in all");
     }
+    if (camera.projection == Projection::perspective) {
+        if (!(camera.fov > 0 && camera.fov < 180)) {
+            return refuse("the field of view has to be above 0 and below 180 degrees");
+        }
+    } else if (!(camera.height > 0) || !std::isfinite(camera.height)) {
+        return refuse("the height of a parallel view has to be above 0");
+    }
     if (!finite(camera.eye) || !finite(camera.target) || !finite(camera.up)) {
         return refuse("the eye, the target and the up direction have to be finite");
     }
@@ -110,13 +117,6 @@ base::Status validate(const Camera& camera, const ImageSize& size) {
     if (!(up > 1e-100) || !std::isfinite(up) ||
         !(glm::length(glm::cross(sight / distance, camera.up / up)) > 1e-9)) {
         return refuse("the up direction is along the line of sight");
-    }
-    if (camera.projection == Projection::perspective) {
-        if (!(camera.fov > 0 && camera.fov < 180)) {
-            return refuse("the field of view has to be above 0 and below 180 degrees");
-        }
-    } else if (!(camera.height > 0) || !std::isfinite(camera.height)) {
-        return refuse("the height of a parallel view has to be above 0");
     }
     return {};
 }
