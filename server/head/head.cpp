@@ -53,6 +53,7 @@ Effects Head::handle(JobEvent event, wire::Time now) {
     const wire::LinkId client = frame->second.client;
     frames_.erase(frame);
     if (const auto session = sessions_.find(client); session != sessions_.end()) {
+        tell_state(effects);  // what is known of the tree is as new as the picture
         session->second.incomplete = std::get<pb::Frame>(finished.frame.body).missing_size() > 0;
         effects.net.emplace_back(wire::Send{client, std::move(finished.frame)});
         begin_frames(client, session->second, now, effects);
@@ -190,12 +191,19 @@ void Head::on_tick(wire::Time now, Effects& effects) {
         }
         begin_frames(link, session, now, effects);
     }
-    if (now - last_state_ > 250ms && roster_.take_news()) {
+    if (now - last_state_ > 250ms) {
         last_state_ = now;
-        const wire::Message state = wire::message(roster_.state());
-        for (const auto& [link, session] : sessions_) {
-            effects.net.emplace_back(wire::Send{link, state});
-        }
+        tell_state(effects);
+    }
+}
+
+void Head::tell_state(Effects& effects) {
+    if (!roster_.take_news()) {
+        return;
+    }
+    const wire::Message state = wire::message(roster_.state());
+    for (const auto& [link, session] : sessions_) {
+        effects.net.emplace_back(wire::Send{link, state});
     }
 }
 

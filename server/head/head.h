@@ -94,6 +94,7 @@ class Head {
                            Effects& effects);
     void give_orders(tree::Place place, Effects& effects) const;
 
+    void tell_state(Effects& effects);
     void settle_mapping(Effects& effects);
     void describe_cube(wire::LinkId client, Effects& effects) const;
     void begin_frames(wire::LinkId client, Session& session, wire::Time now, Effects& effects);
