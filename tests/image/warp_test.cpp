@@ -105,7 +105,8 @@ TEST(Warp, StaysWithinWhatAPixelCanBe) {
             window.pixels.pixels()[i] = lit ? RgbaF{1, 0, 1, 1} : RgbaF{};
         }
     }
-    for (const RgbaF& p : warp_float(f, windows, camera, size, workers).pixels()) {
+    const auto picture = warp_float(f, windows, camera, size, workers);
+    for (const RgbaF& p : picture.pixels()) {
         ASSERT_TRUE(p.a >= 0 && p.a <= 1 && p.r >= 0 && p.r <= p.a && p.g >= 0 && p.g <= p.a && p.b >= 0 &&
                     p.b <= p.a);
     }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -93,13 +94,15 @@ void expect_span(bool blanks, int width, std::ptrdiff_t stride, float u, float u
             ++live;
             const double at = static_cast<double>(u) + static_cast<double>(n) * static_cast<double>(u_scale);
             const int cell = std::min(std::max(static_cast<int>(std::floor(at)), 0), cells - 1);
+            const Code* const corners = rows.data() + cell * stride;
+            const std::ptrdiff_t up = stride * (cells + 1);
+            const std::array<Code, 4> codes{corners[0], corners[stride], corners[up], corners[up + stride]};
+            const double fu = at - cell, fv = 0.3;
+            const std::array<double, 4> weights{(1 - fu) * (1 - fv), fu * (1 - fv), (1 - fu) * fv, fu * fv};
             double sum = 0, valid = 0;
-            for (int corner = 0; corner < 4; ++corner) {
-                const double fu = corner % 2 ? at - cell : 1 - (at - cell);
-                const double fv = corner / 2 ? 0.3 : 0.7;
-                const Code code = (corner / 2 ? row1 : rows.data())[(cell + corner % 2) * stride];
-                sum += fu * fv * code;
-                valid += code == 0 ? 0 : fu * fv;
+            for (std::size_t corner = 0; corner < 4; ++corner) {
+                sum += weights[corner] * codes[corner];
+                valid += codes[corner] == 0 ? 0 : weights[corner];
             }
             if (valid >= 0.5) {
                 const double s = (sum / valid - 1) / (levels - 1);

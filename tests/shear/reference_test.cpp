@@ -124,7 +124,8 @@ TEST(Eye, SeesNothingBehindIt) {
     camera.eye = lattice.world_from_voxel({20, 20, 20.5});
     camera.target = lattice.world_from_voxel({20, 20, 0});
     camera.fov = 90;
-    for (const RgbaF& pixel : picture_of(volume, lattice, tf, camera, {100, 100}, workers).pixels()) {
+    const auto picture = picture_of(volume, lattice, tf, camera, {100, 100}, workers);
+    for (const RgbaF& pixel : picture.pixels()) {
         ASSERT_EQ(pixel.a, 0);
     }
 }
