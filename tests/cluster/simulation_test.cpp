@@ -1,0 +1,118 @@
+// The protocol of joining, drawing, dying and coming back, over many orders of events.
+
+#include <gtest/gtest.h>
+
+#include "protocol/wire/picture.h"
+#include "tests/support/pictures.h"
+#include "tests/support/simulation.h"
+
+namespace shearwater {
+namespace {
+
+class Waves final : public volume::VoxelSource {
+  public:
+    base::Status read(const volume::Box& box, std::span<float> out) override {
+        std::size_t i = 0;
+        for (std::int64_t z = box.lo[2]; z <= box.hi[2]; ++z) {
+            for (std::int64_t y = box.lo[1]; y <= box.hi[1]; ++y) {
+                for (std::int64_t x = box.lo[0]; x <= box.hi[0]; ++x) {
+                    out[i++] = static_cast<float>((x * 7 + y * 11 + z * 5) % 23);
+                }
+            }
+        }
+        return {};
+    }
+};
+
+wire::View view_of(const volume::Index3& n) {
+    wire::View view;
+    view.camera = view::camera_on({}, {.n = n, .spacing = {1, 1, 1}});
+    view.size = {.width = 24, .height = 20};
+    view.tf = view::default_transfer_function();
+    return view;
+}
+
+image::Image<image::Rgba8> picture_of(const support::Simulation& simulation, const wire::View& view) {
+    auto picture = wire::picture_from(*simulation.newest_frame(), view.size);
+    EXPECT_TRUE(picture);
+    return *std::move(picture);
+}
+
+std::vector<tree::Place> all_daemons(const support::Simulation& simulation) {
+    std::vector<tree::Place> places;
+    for (std::size_t i = 1; i < simulation.plan().nodes.size(); ++i) {
+        places.push_back(static_cast<tree::Place>(i));
+    }
+    return places;
+}
+
+constexpr volume::Index3 cube{11, 9, 13};
+
+// Whatever the order in which daemons join and messages arrive, the tree becomes ready, its limits are the
+// cube's, and the picture is the same.
+TEST(Simulation, EveryOrderOfJoiningEndsInTheSamePicture) {
+    Waves source;
+    std::optional<image::Image<image::Rgba8>> first;
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        support::Simulation simulation(seed, *tree::full_tree(2, 3), cube, source);
+        std::vector<tree::Place> places = all_daemons(simulation);
+        std::ranges::shuffle(places, simulation.fabric().random());
+        const wire::View view = view_of(cube);
+        const std::uint64_t revision = simulation.ask(view);
+        for (const tree::Place place : places) {
+            simulation.start_daemon(place);
+            simulation.run_some(static_cast<int>(simulation.fabric().random()() % 20));
+        }
+        ASSERT_TRUE(simulation.run_until([&] { return simulation.answered_whole(revision); }))
+            << "seed " << seed;
+        const auto picture = picture_of(simulation, view);
+        EXPECT_TRUE(support::lit(picture));
+        if (!first) {
+            first = picture.clone();
+        }
+        EXPECT_EQ(support::difference(*first, picture).largest, 0) << "seed " << seed;
+    }
+}
+
+// Daemons die and come back at any moment, several at once, while a client asks: every request is answered,
+// and when all are back the picture is whole and right.
+TEST(Simulation, AnyStormOfDeathsEndsWhole) {
+    Waves source;
+    const wire::View view = view_of(cube);
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        support::Simulation simulation(seed, *tree::full_tree(2, seed % 2 == 0 ? 3 : 4), cube, source);
+        const std::vector<tree::Place> places = all_daemons(simulation);
+        std::ranges::for_each(places, [&](tree::Place place) { simulation.start_daemon(place); });
+        const std::uint64_t calm = simulation.ask(view);
+        ASSERT_TRUE(simulation.run_until([&] { return simulation.answered_whole(calm); })) << "seed " << seed;
+        const auto expected = picture_of(simulation, view);
+
+        auto& random = simulation.fabric().random();
+        for (int blow = 0; blow < 12; ++blow) {
+            const tree::Place place = places[random() % places.size()];
+            if (simulation.running(place)) {
+                simulation.kill_daemon(place);
+            } else {
+                simulation.start_daemon(place);
+            }
+            const std::uint64_t revision = simulation.ask(view);
+            simulation.run_some(static_cast<int>(random() % 60));
+            if (blow % 3 == 0) {
+                ASSERT_TRUE(simulation.run_until([&] { return simulation.answered(revision); }))
+                    << "seed " << seed;
+            }
+        }
+        for (const tree::Place place : places) {
+            if (!simulation.running(place)) {
+                simulation.start_daemon(place);
+            }
+        }
+        const std::uint64_t last = simulation.ask(view);
+        ASSERT_TRUE(simulation.run_until([&] { return simulation.answered_whole(last); })) << "seed " << seed;
+        EXPECT_EQ(support::difference(expected, picture_of(simulation, view)).largest, 0) << "seed " << seed;
+        EXPECT_TRUE(simulation.run_until([&] { return simulation.head().roster().all_ready(); }));
+    }
+}
+
+}  // namespace
+}  // namespace shearwater

@@ -1,0 +1,311 @@
+#include "tests/support/simulation.h"
+
+#include "common/image/warp.h"
+#include "common/volume/statistics.h"
+#include "protocol/wire/picture.h"
+#include "renderer/shear/render.h"
+
+namespace shearwater::support {
+
+namespace pb = wire::pb;
+using namespace std::chrono_literals;
+
+// ---- the fabric ----
+
+void Fabric::add(int node, Deliver deliver) {
+    nodes_[node] = {.deliver = std::move(deliver), .work = {}};
+}
+
+void Fabric::remove(int node) {
+    nodes_.erase(node);
+    std::vector<End> ends;
+    for (const auto& [end, peer] : peers_) {
+        if (end.node == node) {
+            ends.push_back(end);
+        }
+    }
+    for (const End& end : ends) {
+        close(end, pb::REASON_LOST, "the connection broke");
+    }
+    std::erase_if(inbox_, [node](const auto& box) { return box.first.node == node; });
+}
+
+void Fabric::close(const End& end, pb::Reason reason, const std::string& text) {
+    const auto found = peers_.find(end);
+    if (found == peers_.end()) {
+        return;
+    }
+    const End peer = found->second;
+    peers_.erase(end);
+    peers_.erase(peer);
+    inbox_.erase(end);
+    inbox_[peer].emplace_back(wire::LinkDown{peer.id, reason, text});
+}
+
+void Fabric::dial(int node, const wire::Dial& dial) {
+    const End caller{node, dial.link};
+    const int target = dial.address.port;
+    if (!nodes_.contains(target)) {
+        inbox_[caller].emplace_back(
+            wire::LinkDown{dial.link, pb::REASON_UNREACHABLE, "nobody listens there"});
+        return;
+    }
+    const End callee{target, wire::LinkId{accepted_++}};
+    peers_.emplace(caller, callee);
+    peers_.emplace(callee, caller);
+    inbox_[caller].emplace_back(wire::LinkUp{dial.link, dial.role, "node " + std::to_string(target), "sim"});
+    inbox_[callee].emplace_back(wire::LinkUp{callee.id, dial.role, "node " + std::to_string(node), "sim"});
+}
+
+void Fabric::perform(int node, std::vector<wire::NetEffect> effects) {
+    for (wire::NetEffect& effect : effects) {
+        if (auto* send = std::get_if<wire::Send>(&effect)) {
+            if (const auto peer = peers_.find({node, send->link}); peer != peers_.end()) {
+                inbox_[peer->second].emplace_back(wire::Received{peer->second.id, std::move(send->message)});
+            }
+        } else if (const auto* closing = std::get_if<wire::CloseLink>(&effect)) {
+            close({node, closing->link}, closing->reason, closing->text);
+            inbox_.erase({node, closing->link});
+        } else {
+            dial(node, std::get<wire::Dial>(effect));
+        }
+    }
+}
+
+void Fabric::later(int node, std::function<void()> work) {
+    nodes_[node].work.push_back(std::move(work));
+}
+
+bool Fabric::step() {
+    std::erase_if(inbox_, [](const auto& box) { return box.second.empty(); });
+    std::vector<int> busy;
+    for (const auto& [number, node] : nodes_) {
+        if (!node.work.empty()) {
+            busy.push_back(number);
+        }
+    }
+    const std::size_t choices = inbox_.size() + busy.size();
+    if (choices == 0) {
+        return false;
+    }
+    const std::size_t choice = random_() % choices;
+    if (choice < busy.size()) {
+        auto& work = nodes_[busy[choice]].work;
+        const auto next = std::move(work.front());
+        work.pop_front();
+        next();
+        return true;
+    }
+    auto box = std::next(inbox_.begin(), static_cast<std::ptrdiff_t>(choice - busy.size()));
+    const int node = box->first.node;
+    const wire::NetEvent event = std::move(box->second.front());
+    box->second.pop_front();
+    if (const auto receiver = nodes_.find(node); receiver != nodes_.end()) {
+        receiver->second.deliver(event);
+    }
+    return true;
+}
+
+void Fabric::pass_time(std::chrono::milliseconds time) {
+    now_ += time;
+    std::vector<int> numbers;
+    for (const auto& [number, node] : nodes_) {
+        numbers.push_back(number);
+    }
+    for (const int number : numbers) {
+        if (const auto node = nodes_.find(number); node != nodes_.end()) {
+            node->second.deliver(wire::Tick{});
+        }
+    }
+}
+
+// ---- the daemons ----
+
+struct Simulation::Daemon {
+    virtual ~Daemon() = default;
+    virtual void on_event(const wire::NetEvent& event) = 0;
+};
+
+struct Simulation::Renderer final : Simulation::Daemon {
+    Renderer(Simulation& s, int n, node::MemberOptions options)
+        : sim(s), number(n), leaf(std::move(options)) {
+        perform(leaf.start());
+    }
+    void on_event(const wire::NetEvent& event) override { perform(leaf.handle(event, sim.fabric_.now())); }
+
+    void tell(leaf::JobEvent event) { perform(leaf.handle(std::move(event), sim.fabric_.now())); }
+
+    void perform(leaf::Effects effects) {
+        sim.fabric_.perform(number, std::move(effects.net));
+        for (leaf::Effect& effect : effects.jobs) {
+            sim.fabric_.later(number, [this, job = std::move(effect)] { carry_out(job); });
+        }
+    }
+
+    void carry_out(const leaf::Effect& effect) {
+        if (const auto* count = std::get_if<leaf::Count>(&effect)) {
+            const auto& share = count->share;
+            tell(leaf::Counted{count->job,
+                               volume::count_values(sim.source_, share.box, share.lattice.n, sim.workers_)});
+        } else if (const auto* load = std::get_if<leaf::Load>(&effect)) {
+            auto loaded = shear::BrickVolume::load(sim.source_, load->share.box, load->share.lattice.n,
+                                                   load->mapping, sim.workers_);
+            bricks = *std::move(loaded);
+            tell(leaf::Loaded{load->job, {}});
+        } else if (const auto* draw = std::get_if<leaf::Draw>(&effect); draw != nullptr && bricks) {
+            node::Merged drawn{.frame = draw->frame, .windows = {}, .missing = {}, .stats = {}};
+            drawn.windows = shear::render(*bricks, draw->factorisation, draw->tf, sim.workers_);
+            tell(leaf::Drawn{draw->job, node::to_message(drawn)});
+        }
+    }
+
+    Simulation& sim;
+    int number;
+    leaf::Leaf leaf;
+    std::optional<shear::BrickVolume> bricks;
+};
+
+struct Simulation::Compositor final : Simulation::Daemon {
+    Compositor(Simulation& s, int n, node::MemberOptions options)
+        : sim(s), number(n), junction(std::move(options)) {
+        perform(junction.start());
+    }
+    void on_event(const wire::NetEvent& event) override {
+        perform(junction.handle(event, sim.fabric_.now()));
+    }
+
+    void perform(junction::Effects effects) {
+        sim.fabric_.perform(number, std::move(effects.net));
+        for (junction::Merge& merge : effects.merges) {
+            sim.fabric_.later(number, [this, merge = std::move(merge)] {
+                perform(junction.handle(
+                    junction::MergeDone{merge.job.frame, node::to_message(node::merge(merge.job)), {}}));
+            });
+        }
+    }
+
+    Simulation& sim;
+    int number;
+    junction::Junction junction;
+};
+
+// ---- the tree ----
+
+namespace {
+
+head::Roster roster_for(const tree::Topology& topology, const volume::Index3& n) {
+    auto plan = tree::make_plan(topology, n);
+    base::check(plan.has_value(), "the simulated tree fits its cube");
+    head::CubeFacts cube;
+    cube.name = "simulated";
+    cube.path = "/simulated";
+    cube.lattice = {.n = n, .spacing = {1, 1, 1}};
+    constexpr std::uint64_t epoch = 11;
+    return {*std::move(plan), std::move(cube), epoch, 8};
+}
+
+}  // namespace
+
+Simulation::Simulation(std::uint64_t seed, const tree::Topology& topology, const volume::Index3& n,
+                       volume::VoxelSource& source)
+    : fabric_(seed), source_(source), head_(roster_for(topology, n), {.range = {}, .percentile = 99.5}) {
+    fabric_.add(server_node, [this](const wire::NetEvent& e) { perform(head_.handle(e, fabric_.now())); });
+    fabric_.add(client_node, [this](const wire::NetEvent& e) { on_client_event(e); });
+    fabric_.perform(client_node, {wire::Dial{wire::LinkId{1}, {"sim", server_node}, pb::ROLE_CLIENT}});
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::start_daemon(tree::Place place) {
+    const tree::NodeSpec& spec = plan().at(place).spec;
+    node::MemberOptions options{.server = {"sim", server_node}, .node_name = spec.name};
+    std::unique_ptr<Daemon>& daemon = daemons_[place];
+    // The fabric must know the node before it dials.
+    fabric_.add(place, [&daemon](const wire::NetEvent& event) { daemon->on_event(event); });
+    if (spec.role == tree::Role::renderer) {
+        options.role = pb::ROLE_RENDERER;
+        daemon = std::make_unique<Renderer>(*this, place, std::move(options));
+    } else {
+        options.role = pb::ROLE_COMPOSITOR;
+        options.listen = {"sim", static_cast<std::uint16_t>(place)};
+        daemon = std::make_unique<Compositor>(*this, place, std::move(options));
+    }
+}
+
+void Simulation::kill_daemon(tree::Place place) {
+    daemons_.erase(place);
+    fabric_.remove(place);
+}
+
+void Simulation::perform(head::Effects effects) {
+    fabric_.perform(server_node, std::move(effects.net));
+    for (head::Job& job : effects.jobs) {
+        fabric_.later(server_node, [this, job = std::move(job)] {
+            const auto* finish = std::get_if<head::Finish>(&job);
+            if (finish == nullptr) {
+                return;
+            }
+            const node::Merged merged = node::merge(finish->merge);
+            pb::Frame frame;
+            frame.set_number(merged.frame);
+            frame.set_revision(finish->view.revision);
+            for (const node::Missing& missing : merged.missing) {
+                frame.add_missing()->set_place(static_cast<std::uint32_t>(missing.place));
+            }
+            const auto picture = image::warp(finish->merge.factorisation, merged.windows, finish->view.camera,
+                                             finish->view.size, finish->view.tf.background, workers_);
+            perform(head_.handle(
+                head::Finished{merged.frame, wire::frame_message(std::move(frame), picture, false)},
+                fabric_.now()));
+        });
+    }
+}
+
+void Simulation::on_client_event(const wire::NetEvent& event) {
+    const auto* received = std::get_if<wire::Received>(&event);
+    if (received != nullptr && std::holds_alternative<pb::Frame>(received->message.body)) {
+        frame_ = received->message;
+        pb::FrameShown shown;
+        shown.set_number(std::get<pb::Frame>(frame_->body).number());
+        fabric_.perform(client_node, {wire::Send{received->link, wire::message(shown)}});
+    }
+}
+
+std::uint64_t Simulation::ask(const wire::View& wanted) {
+    wire::View view = wanted;
+    view.revision = ++revision_;
+    fabric_.perform(client_node, {wire::Send{wire::LinkId{1}, wire::message(wire::to_wire(view))}});
+    return revision_;
+}
+
+bool Simulation::answered(std::uint64_t revision) const {
+    return frame_ && std::get<pb::Frame>(frame_->body).revision() >= revision;
+}
+
+bool Simulation::answered_whole(std::uint64_t revision) const {
+    return answered(revision) && std::get<pb::Frame>(frame_->body).missing_size() == 0;
+}
+
+void Simulation::run_some(int steps) {
+    for (int i = 0; i < steps; ++i) {
+        if (!fabric_.step()) {
+            fabric_.pass_time(100ms);
+        }
+    }
+}
+
+bool Simulation::run_until(const std::function<bool()>& holds, std::chrono::seconds patience) {
+    const wire::Time end = fabric_.now() + patience;
+    while (!holds()) {
+        if (fabric_.step()) {
+            continue;
+        }
+        if (fabric_.now() > end) {
+            return false;
+        }
+        fabric_.pass_time(100ms);
+    }
+    return true;
+}
+
+}  // namespace shearwater::support
