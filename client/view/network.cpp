@@ -8,10 +8,13 @@ namespace shearwater::ui {
 namespace asio = boost::asio;
 using Clock = std::chrono::steady_clock;
 
+// For the goodbye to leave.
+constexpr std::chrono::milliseconds patience{300};
+
 Network::Network(const wire::Address& server, link::Secret secret, std::function<void()> wake)
     : wake_(std::move(wake)),
       session_(server),
-      hub_(io_, std::move(secret), "client", [this](wire::NetEvent event) { on_event(event); }) {
+      hub_(io_, std::move(secret), "client", [this](const wire::NetEvent& event) { on_event(event); }) {
     asio::post(io_, [this] {
         session_.start(Clock::now());
         carry_out();
@@ -23,7 +26,6 @@ Network::Network(const wire::Address& server, link::Secret secret, std::function
 }
 
 Network::~Network() {
-    constexpr std::chrono::milliseconds patience{300};
     asio::post(io_, [this] { hub_.shut_down(patience, [this] { io_.stop(); }); });
     thread_.join();
 }

@@ -20,11 +20,10 @@ ImU32 colour_of_link(Connection connection) {
         case Connection::connected:
             return theme::good;
         case Connection::connecting:
-            return theme::busy;
         case Connection::waiting:
             return theme::busy;
         case Connection::refused:
-            return theme::bad;
+            break;
     }
     return theme::bad;
 }

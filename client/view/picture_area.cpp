@@ -45,9 +45,10 @@ void draw_picture(const Desk& desk, ImVec2 from, ImVec2 size) {
                         from.y + std::floor((size.y - shown.y) / 2)};
     const bool live = desk.status.connection == model::Connection::connected;
     const ImU32 tint = live ? IM_COL32_WHITE : IM_COL32(150, 150, 150, 255);
-    ImGui::GetWindowDrawList()->AddImage(
-        reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(desk.picture.id())), corner,
-        {corner.x + shown.x, corner.y + shown.y}, {0, 0}, {1, 1}, tint);
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): so ImGui's handle of a texture is made
+    const auto texture = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(desk.picture.id()));
+    ImGui::GetWindowDrawList()->AddImage(texture, corner, {corner.x + shown.x, corner.y + shown.y}, {0, 0},
+                                         {1, 1}, tint);
 }
 
 void drag(Desk& desk, float to_pixels) {

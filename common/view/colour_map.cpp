@@ -142,6 +142,7 @@ std::string all_names() {
 
 std::vector<std::string> colour_map_names() {
     std::vector<std::string> names;
+    names.reserve(maps.size());
     for (const NamedMap& map : maps) {
         names.emplace_back(map.name);
     }

@@ -139,6 +139,7 @@ TEST_F(SessionTest, HostileDescriptionsTreesAndTypesEndTheLink) {
     expect_closed(pb::REASON_BAD_TYPE, "Assign");
 }
 
+// Any bytes a server may send in place of a frame leave the session alive.
 TEST_F(SessionTest, FuzzedFramesNeverCrash) {
     std::mt19937 random(3);
     const auto good = code(picture(32, 16));

@@ -263,7 +263,5 @@ TEST_F(SessionTest, AnIncompletePictureIsAskedForAgainWhenMoreIsReady) {
     EXPECT_THAT(views_, SizeIs(2)) << "whole at last";
 }
 
-// Any bytes a server may send in place of a frame leave the session alive.
-
 }  // namespace
 }  // namespace shearwater::model
