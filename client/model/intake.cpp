@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "common/image/rle.h"
 #include "protocol/wire/convert.h"
 
 namespace shearwater::model {
@@ -66,16 +65,6 @@ void append_subtree(std::vector<Node>& out, std::map<std::int64_t, std::vector<N
     }
 }
 
-wire::Parsed<std::vector<std::byte>> inflated(const wire::Message& message, std::size_t limit) {
-    auto bytes = image::inflate(*message.payload, limit);
-    if (!bytes) {
-        return wire::Fault{
-            bytes.error().code == base::Code::too_large ? pb::REASON_TOO_LARGE : pb::REASON_MALFORMED,
-            "frame: " + bytes.error().message()};
-    }
-    return std::move(*bytes);
-}
-
 }  // namespace
 
 wire::Parsed<Cube> cube_from(const pb::CubeDescription& description) {
@@ -122,35 +111,6 @@ wire::Parsed<std::vector<Missing>> missing_from(const pb::Frame& frame) {
         missing.push_back({part.place(), *box});
     }
     return missing;
-}
-
-wire::Parsed<image::Image<image::Rgba8>> picture_from(const wire::Message& message,
-                                                      const view::ImageSize& asked) {
-    const auto& frame = std::get<pb::Frame>(message.body);
-    if (frame.width() != static_cast<std::uint32_t>(asked.width) ||
-        frame.height() != static_cast<std::uint32_t>(asked.height)) {
-        return invalid("frame: not of the size asked for");
-    }
-    image::Image<image::Rgba8> picture(asked.width, asked.height);
-    std::span<const std::byte> code;
-    std::vector<std::byte> unpacked;
-    if (message.payload != nullptr) {
-        code = *message.payload;
-    }
-    if (frame.encoding() == pb::ENCODING_RLE_DEFLATE && message.payload != nullptr) {
-        auto bytes = inflated(message, image::rle_bound(picture.pixels().size()));
-        if (!bytes) {
-            return bytes.error();
-        }
-        unpacked = std::move(*bytes);
-        code = unpacked;
-    } else if (frame.encoding() != pb::ENCODING_RLE && frame.encoding() != pb::ENCODING_RLE_DEFLATE) {
-        return invalid("frame: its encoding is unknown");
-    }
-    if (const auto decoded = image::decode_rle(code, picture.pixels()); !decoded) {
-        return wire::Fault{pb::REASON_MALFORMED, "frame: " + decoded.error().message()};
-    }
-    return picture;
 }
 
 }  // namespace shearwater::model

@@ -12,8 +12,5 @@ wire::Parsed<Cube> cube_from(const wire::pb::CubeDescription& description);
 wire::Parsed<Tree> tree_from(const wire::pb::TreeState& state);
 // The boxes a frame lacks.
 wire::Parsed<std::vector<Missing>> missing_from(const wire::pb::Frame& frame);
-// The pixels of a frame whose size is the one asked for: memory goes by that size, not by the sender's word.
-wire::Parsed<image::Image<image::Rgba8>> picture_from(const wire::Message& message,
-                                                      const view::ImageSize& asked);
 
 }  // namespace shearwater::model

@@ -4,6 +4,7 @@
 
 #include "client/model/intake.h"
 #include "protocol/wire/convert.h"
+#include "protocol/wire/picture.h"
 
 namespace shearwater::model {
 
@@ -160,7 +161,7 @@ void Session::on_frame(const wire::Message& message, wire::Time now) {
     if (!missing) {
         return give_up(missing.error(), now);
     }
-    auto pixels = picture_from(message, sent->size);
+    auto pixels = wire::picture_from(message, sent->size);
     if (!pixels) {
         return give_up(pixels.error(), now);
     }

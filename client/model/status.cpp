@@ -2,25 +2,11 @@
 
 #include <algorithm>
 
+#include "protocol/wire/words.h"
+
 namespace shearwater::model {
 
 namespace {
-
-// How far a renderer is on its way: counting is the first half, loading the second.
-double loaded_share(const Node& node) {
-    switch (node.phase) {
-        case wire::pb::PHASE_COUNTING:
-            return node.fraction / 2;
-        case wire::pb::PHASE_WAITING:
-            return 0.5;
-        case wire::pb::PHASE_LOADING:
-            return 0.5 + node.fraction / 2;
-        case wire::pb::PHASE_READY:
-            return 1;
-        default:
-            return 0;
-    }
-}
 
 bool is_renderer(const Node& node) {
     return node.role == wire::pb::ROLE_RENDERER;
@@ -31,7 +17,7 @@ bool is_renderer(const Node& node) {
 double Tree::loaded() const {
     double sum = 0;
     for (const Node& node : nodes) {
-        sum += is_renderer(node) ? loaded_share(node) : 0;
+        sum += is_renderer(node) ? wire::loaded_share(node.phase, node.fraction) : 0;
     }
     return renderers() > 0 ? sum / renderers() : 0;
 }

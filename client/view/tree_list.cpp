@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "client/view/widgets.h"
+#include "protocol/wire/words.h"
 
 namespace shearwater::ui {
 
@@ -25,44 +26,13 @@ ImU32 colour_of_phase(pb::Phase phase) {
     }
 }
 
-const char* word_for_phase(pb::Phase phase) {
-    switch (phase) {
-        case pb::PHASE_VACANT:
-            return "vacant";
-        case pb::PHASE_JOINED:
-            return "joined";
-        case pb::PHASE_COUNTING:
-            return "counting";
-        case pb::PHASE_WAITING:
-            return "waiting";
-        case pb::PHASE_LOADING:
-            return "loading";
-        case pb::PHASE_READY:
-            return "ready";
-        case pb::PHASE_FAILED:
-            return "failed";
-        default:
-            return "";
-    }
-}
-
-const char* word_for_role(pb::Role role) {
-    switch (role) {
-        case pb::ROLE_RENDERER:
-            return "renderer";
-        case pb::ROLE_COMPOSITOR:
-            return "compositor";
-        default:
-            return "node";
-    }
-}
-
 void tooltip(const model::Node& node) {
     const std::string memory =
         node.memory_bytes > 0 ? bytes_text(static_cast<double>(node.memory_bytes)) : "-";
-    ImGui::SetTooltip("%s\n%s, place %u\nbox %s\nmemory %s%s%s", node.name.c_str(), word_for_role(node.role),
-                      node.place, volume::to_string(node.box).c_str(), memory.c_str(),
-                      node.error.empty() ? "" : "\n", node.error.c_str());
+    ImGui::SetTooltip("%s\n%s, place %u\nbox %s\nmemory %s%s%s", node.name.c_str(),
+                      std::string(wire::text_of(node.role)).c_str(), node.place,
+                      volume::to_string(node.box).c_str(), memory.c_str(), node.error.empty() ? "" : "\n",
+                      node.error.c_str());
 }
 
 void node_line(const Desk& desk, const model::Node& node) {
@@ -70,12 +40,12 @@ void node_line(const Desk& desk, const model::Node& node) {
     const float indent = desk.px(12) * static_cast<float>(std::min(node.depth, 8));
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + indent);
     dot(desk, colour_of_phase(node.phase));
-    const std::string name = node.name.empty() ? fmt::format("{} {}", word_for_role(node.role), node.place)
+    const std::string name = node.name.empty() ? fmt::format("{} {}", wire::text_of(node.role), node.place)
                                                : node.name.substr(0, node.name.find(" ("));
     const bool under_way = node.phase == pb::PHASE_COUNTING || node.phase == pb::PHASE_LOADING;
-    const char* phase = word_for_phase(node.phase);
+    const std::string phase(wire::text_of(node.phase));
     const float right = ImGui::GetWindowContentRegionMax().x;
-    const float column = under_way ? desk.px(64) : ImGui::CalcTextSize(phase).x;
+    const float column = under_way ? desk.px(64) : ImGui::CalcTextSize(phase.c_str()).x;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float name_end = ImGui::GetWindowPos().x + right - column - desk.px(10);
     ImGui::PushClipRect({at.x, at.y}, {name_end, at.y + ImGui::GetTextLineHeight()}, true);
