@@ -64,9 +64,6 @@ class LocalTree {
     // Starts again what has died, not too often. False when the server is gone.
     bool keep_alive();
 
-    // The exit status of a server that refused to start.
-    static constexpr int refused = 2;
-
   private:
     struct Daemon {
         std::string program;

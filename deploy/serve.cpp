@@ -6,6 +6,7 @@
 #include "deploy/commands.h"
 #include "deploy/local_tree.h"
 #include "deploy/session_secret.h"
+#include "deploy/target.h"
 #include "protocol/daemon/options.h"
 #include "protocol/daemon/runtime.h"
 
@@ -100,10 +101,7 @@ Run add_serve(CLI::App& app) {
     flags->common.add_to(app);
     return [flags] {
         const auto done = serve(*flags);
-        if (done) {
-            return 0;
-        }
-        return done.error().operation.empty() ? LocalTree::refused : daemon::refuse(program, done.error());
+        return done ? 0 : refuse(program, done.error());
     };
 }
 

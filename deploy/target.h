@@ -1,0 +1,38 @@
+#pragma once
+// What a picture or a window is of: a cube on a tree of our own, or whatever a running server serves.
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "common/options/cube_options.h"
+#include "common/options/tree_options.h"
+#include "deploy/local_tree.h"
+
+namespace shearwater::deploy {
+
+struct TargetOptions {
+    options::CubeOptions cube;
+    options::TreeOptions tree;
+    std::string connect;
+    std::string secret_file;
+    int threads = 0;
+
+    void add_to(CLI::App& app);
+    // One of cube and server, and what no option parser sees of the cube's options.
+    base::Status validate() const;
+};
+
+struct Target {
+    wire::Address server;
+    link::Secret secret;
+    std::optional<LocalTree> tree;  // where it is our own
+};
+
+// Starts the tree, or finds the server's address. Errors as LocalTree::start has them.
+base::Result<Target> open_target(const TargetOptions& options, const std::string& log_level);
+
+// The exit status for an error, which is told on standard error unless the server has done so.
+int refuse(const std::string& program, const base::Error& error);
+
+}  // namespace shearwater::deploy
