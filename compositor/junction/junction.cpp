@@ -68,7 +68,7 @@ void Junction::on_assigned(Effects& effects) {
             children.push_back({static_cast<int>(child.place()), *box});
         }
     }
-    branch_.configure(assign.epoch(), std::move(children), effects.net);
+    branch_.configure(assign.epoch(), children, effects.net);
     report(effects);
 }
 

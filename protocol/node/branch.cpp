@@ -9,9 +9,10 @@ namespace shearwater::node {
 
 using wire::NetEffect;
 
-void Branch::configure(std::uint64_t epoch, std::vector<ChildSpec> specs, std::vector<NetEffect>& effects) {
+void Branch::configure(std::uint64_t epoch, const std::vector<ChildSpec>& specs,
+                       std::vector<NetEffect>& effects) {
     std::vector<Child> children;
-    for (ChildSpec& spec : specs) {
+    for (const ChildSpec& spec : specs) {
         children.push_back({.spec = spec, .link = {}, .histogram = {}});
     }
     const bool same =

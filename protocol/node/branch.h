@@ -27,7 +27,7 @@ class Branch {
     };
 
     // Replaces the children. Links of places that stay are kept, the others closed.
-    void configure(std::uint64_t epoch, std::vector<ChildSpec> children,
+    void configure(std::uint64_t epoch, const std::vector<ChildSpec>& children,
                    std::vector<wire::NetEffect>& effects);
 
     // An Adopt that fits: the link is the child's from now on, an older one is closed. Otherwise the link

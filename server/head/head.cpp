@@ -15,7 +15,7 @@ Head::Head(Roster roster, Limits limits) : roster_(std::move(roster)), limits_(l
         children.push_back({child, roster_.plan().at(child).box});
     }
     std::vector<wire::NetEffect> none;
-    branch_.configure(roster_.epoch(), std::move(children), none);
+    branch_.configure(roster_.epoch(), children, none);
     if (limits_.range) {
         mapping_ = volume::Mapping{.lo = limits_.range->lo,
                                    .hi = limits_.range->hi,
