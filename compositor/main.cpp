@@ -59,13 +59,17 @@ int main(int argc, char** argv) {
             });
         }
     };
-    runtime.emplace(program, *secret, [&](wire::NetEvent event) {
+    link::Limits limits;
+    constexpr std::size_t children_at_once = 64;  // as many as a junction has may dial together
+    limits.handshakes += children_at_once;
+    const auto on_event = [&](const wire::NetEvent& event) {
         perform(junction->handle(event, std::chrono::steady_clock::now()));
         if (const auto* down = std::get_if<wire::LinkDown>(&event)) {
             const bool orderly = down->reason == wire::pb::REASON_SHUTDOWN;
             spdlog::log(orderly ? spdlog::level::info : spdlog::level::warn, "link down: {}", down->text);
         }
-    });
+    };
+    runtime.emplace(program, *secret, on_event, limits);
     const auto bound = runtime->hub().listen(*listen);
     if (!bound) {
         return daemon::refuse(program, bound.error());
