@@ -46,15 +46,20 @@ Merged merge(const MergeJob& job) {
     return merged;
 }
 
+void put(const std::vector<Missing>& missing,
+         google::protobuf::RepeatedPtrField<wire::pb::Missing>& entries) {
+    for (const Missing& part : missing) {
+        wire::pb::Missing* const entry = entries.Add();
+        entry->set_place(static_cast<std::uint32_t>(part.place));
+        *entry->mutable_box() = wire::to_wire(part.box);
+    }
+}
+
 wire::Message to_message(const Merged& merged) {
     wire::Message message = wire::windows_message(merged.frame, merged.windows);
     auto& body = std::get<wire::pb::Windows>(message.body);
     *body.mutable_stats() = merged.stats;
-    for (const Missing& missing : merged.missing) {
-        wire::pb::Missing* const entry = body.add_missing();
-        entry->set_place(static_cast<std::uint32_t>(missing.place));
-        *entry->mutable_box() = wire::to_wire(missing.box);
-    }
+    put(merged.missing, *body.mutable_missing());
     return message;
 }
 

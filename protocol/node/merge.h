@@ -43,6 +43,9 @@ struct Merged {
 // Merges in visibility order, front to back. The parts' windows have been through windows_from.
 Merged merge(const MergeJob& job);
 
+// Names the missing parts in a message.
+void put(const std::vector<Missing>& missing, google::protobuf::RepeatedPtrField<wire::pb::Missing>& entries);
+
 // What a junction sends up, or a leaf: windows, what they lack and what they cost.
 wire::Message to_message(const Merged& merged);
 

@@ -42,11 +42,7 @@ void Service::finish(const head::Finish& job) {
     pb::Frame frame;
     frame.set_number(merged.frame);
     frame.set_revision(job.view.revision);
-    for (const node::Missing& missing : merged.missing) {
-        pb::Missing* const entry = frame.add_missing();
-        entry->set_place(static_cast<std::uint32_t>(missing.place));
-        *entry->mutable_box() = wire::to_wire(missing.box);
-    }
+    node::put(merged.missing, *frame.mutable_missing());
     const wire::Time warp_begin = std::chrono::steady_clock::now();
     const auto picture = image::warp(job.merge.factorisation, merged.windows, job.view.camera, job.view.size,
                                      job.view.tf.background, workers_);

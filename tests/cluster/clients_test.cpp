@@ -18,7 +18,7 @@ namespace pb = wire::pb;
 class Clients : public testing::Test {
   protected:
     void SetUp() override {
-        path_ = scratch_.file("cube.fits");
+        path_ = scratch_.path("cube.fits");
         ASSERT_TRUE(samples::write_sample("nbody-web", {33, 35, 37}, 3, path_));
         deploy::LocalTree::Options options;
         options.cube.path = path_;
@@ -32,7 +32,7 @@ class Clients : public testing::Test {
         views_ = support::twenty_views(single_->lattice());
     }
 
-    support::Scratch scratch_;
+    support::TemporaryFolder scratch_;
     std::string path_;
     link::Secret secret_ = link::Secret::random();
     std::optional<deploy::LocalTree> tree_;
@@ -138,8 +138,8 @@ TEST_F(Clients, ADaemonTooManyIsTurnedAway) {
 
 TEST_F(Clients, MemoryAtRestIsBounded) {
     // A renderer at rest: at most 1.3 bytes a voxel and 64 MiB; while loading 1.6 and 128 MiB.
-    const support::Scratch scratch;
-    const std::string path = scratch.file("big.fits");
+    const support::TemporaryFolder scratch;
+    const std::string path = scratch.path("big.fits");
     const volume::Index3 n{320, 320, 320};
     ASSERT_TRUE(samples::write_sample("random", n, 1, path));
     deploy::LocalTree::Options options;

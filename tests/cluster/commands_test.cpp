@@ -24,9 +24,9 @@ struct Outcome {
 };
 
 Outcome run(const std::string& arguments) {
-    const support::Scratch scratch;
+    const support::TemporaryFolder scratch;
     const std::string command = std::string("timeout 60 ") + SHEARWATER_BIN + "/shearwater " + arguments +
-                                " 2>" + scratch.file("err") + " </dev/null";
+                                " 2>" + scratch.path("err") + " </dev/null";
     Outcome outcome;
     FILE* const pipe = popen(command.c_str(), "r");
     std::array<char, 4096> chunk{};
@@ -36,7 +36,7 @@ Outcome run(const std::string& arguments) {
     const int ended = pclose(pipe);
     outcome.status = WIFEXITED(ended) ? WEXITSTATUS(ended) : 128 + WTERMSIG(ended);
     std::ostringstream text;
-    text << std::ifstream(scratch.file("err")).rdbuf();
+    text << std::ifstream(scratch.path("err")).rdbuf();
     outcome.err = text.str();
     return outcome;
 }
@@ -53,9 +53,9 @@ class Commands : public testing::Test {
   protected:
     void SetUp() override { ASSERT_TRUE(samples::write_sample("nbody-web", {31, 33, 29}, 3, cube_)); }
 
-    support::Scratch scratch_;
-    std::string cube_ = scratch_.file("cube.fits");
-    std::string png_ = scratch_.file("out.png");
+    support::TemporaryFolder scratch_;
+    std::string cube_ = scratch_.path("cube.fits");
+    std::string png_ = scratch_.path("out.png");
 };
 
 TEST_F(Commands, SnapshotIsTheSameWithAndWithoutDaemons) {
@@ -120,8 +120,8 @@ TEST_F(Commands, MistakesGetOneLine) {
     expect_mistake("sample duck -o " + png_, "duck");
     expect_mistake("sample ball -o " + png_ + " --size 0 1 2", "axis");
     expect_mistake("sample ball -o /nowhere/x.fits", "nowhere");
-    std::ofstream(scratch_.file("bad.toml")) << "[[opacity]]\nkind = 'rump'\n";
-    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --tf " + scratch_.file("bad.toml"), "rump");
+    std::ofstream(scratch_.path("bad.toml")) << "[[opacity]]\nkind = 'rump'\n";
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --tf " + scratch_.path("bad.toml"), "rump");
 }
 
 TEST_F(Commands, HelpEndsWithZero) {
@@ -139,14 +139,14 @@ TEST(SharedData, GivesAPictureOrOneClearLine) {
     if (!std::filesystem::is_directory(folder)) {
         GTEST_SKIP() << "the folder of sample data is not here";
     }
-    const support::Scratch scratch;
+    const support::TemporaryFolder scratch;
     int pictures = 0;
     int refusals = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         if (!entry.is_regular_file()) {
             continue;
         }
-        const std::string png = scratch.file("out.png");
+        const std::string png = scratch.path("out.png");
         std::filesystem::remove(png);
         const Outcome outcome = run("snapshot '" + entry.path().string() + "' -o " + png +
                                     " --tree 2,2 --size 64x64 --quality draft");

@@ -15,7 +15,7 @@ namespace {
 class Failures : public testing::Test {
   protected:
     void start(int branching, int levels, const volume::Index3& n) {
-        path_ = scratch_.file("cube.fits");
+        path_ = scratch_.path("cube.fits");
         ASSERT_TRUE(samples::write_sample("nbody-web", n, 3, path_));
         options_.cube.path = path_;
         options_.cube.range = {0, 2};
@@ -46,7 +46,7 @@ class Failures : public testing::Test {
         EXPECT_LE(support::difference(shot->image, expected_->draw(view_)).largest, 1);
     }
 
-    support::Scratch scratch_;
+    support::TemporaryFolder scratch_;
     std::string path_;
     deploy::LocalTree::Options options_;
     link::Secret secret_ = link::Secret::random();

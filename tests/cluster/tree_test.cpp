@@ -27,8 +27,8 @@ class EveryTree : public testing::TestWithParam<Case> {};
 
 TEST_P(EveryTree, GivesTheSamePicture) {
     const Case& c = GetParam();
-    const support::Scratch scratch;
-    const std::string path = scratch.file("cube.fits");
+    const support::TemporaryFolder scratch;
+    const std::string path = scratch.path("cube.fits");
     ASSERT_TRUE(samples::write_sample("nbody-web", c.n, 3, path));
     auto cube = fits::Cube::open(path);
     ASSERT_TRUE(cube);
@@ -71,10 +71,10 @@ INSTANTIATE_TEST_SUITE_P(Trees, EveryTree,
 
 // Unequal shares, a compositor that is left out, 16 bits, a stretch and a spacing: still one picture.
 TEST(UnevenTree, GivesTheSamePicture) {
-    const support::Scratch scratch;
-    const std::string path = scratch.file("cube.fits");
+    const support::TemporaryFolder scratch;
+    const std::string path = scratch.path("cube.fits");
     ASSERT_TRUE(samples::write_sample("nbody-web", {45, 39, 51}, 5, path));
-    std::ofstream(scratch.file("t.toml")) << R"(
+    std::ofstream(scratch.path("t.toml")) << R"(
 [[node]]
 name = "a"
 role = "renderer"
@@ -102,7 +102,7 @@ parent = "mid"
     options.cube.bits = 16;
     options.cube.stretch = "asinh";
     options.cube.spacing = {1, 1.5, 0.75};
-    options.tree.topology_file = scratch.file("t.toml");
+    options.tree.topology_file = scratch.path("t.toml");
     const link::Secret secret = link::Secret::random();
     auto tree = deploy::LocalTree::start(options, secret);
     ASSERT_TRUE(tree) << tree.error().message();
@@ -121,8 +121,8 @@ parent = "mid"
 
 // Limits by percentile: every renderer's histogram, merged up the tree, cuts where the whole cube's does.
 TEST(Limits, AreThoseOfTheWholeCube) {
-    const support::Scratch scratch;
-    const std::string path = scratch.file("cube.fits");
+    const support::TemporaryFolder scratch;
+    const std::string path = scratch.path("cube.fits");
     ASSERT_TRUE(samples::write_sample("random", {33, 35, 37}, 9, path));
     auto cube = fits::Cube::open(path);
     ASSERT_TRUE(cube);
@@ -151,22 +151,22 @@ TEST(Limits, AreThoseOfTheWholeCube) {
 
 // A renderer that cannot see the file is sent its voxels down the tree.
 TEST(Voxels, ComeDownTheTree) {
-    const support::Scratch scratch;
-    const std::string path = scratch.file("cube.fits");
+    const support::TemporaryFolder scratch;
+    const std::string path = scratch.path("cube.fits");
     ASSERT_TRUE(samples::write_sample("nbody-web", {43, 47, 41}, 3, path));
     support::Single single(path, {.lo = 0, .hi = 2, .stretch = volume::Stretch::linear, .bits = 8});
 
     deploy::LocalTree::Options options;
     options.cube.path = path;
     options.cube.range = {0, 2};
-    options.tree.topology_file = scratch.file("t.toml");
+    options.tree.topology_file = scratch.path("t.toml");
     std::ofstream(options.tree.topology_file)
         << "[tree]\nbranching = 2\nlevels = 3\n[placement]\nlauncher = 'manual'\n";
     const link::Secret secret = link::Secret::random();
     auto tree = deploy::LocalTree::start(options, secret);
     ASSERT_TRUE(tree) << tree.error().message();
     // The server has the file open; nobody else will find it.
-    std::filesystem::rename(path, scratch.file("hidden.fits"));
+    std::filesystem::rename(path, scratch.path("hidden.fits"));
     std::vector<deploy::Process> daemons;
     for (const char* program : {"shearwater-compositor", "shearwater-compositor", "shearwater-renderer",
                                 "shearwater-renderer", "shearwater-renderer", "shearwater-renderer"}) {

@@ -1,7 +1,6 @@
 #pragma once
 // Cubes and views for tests of whole trees.
 
-#include <filesystem>
 #include <random>
 #include <string>
 #include <vector>
@@ -12,28 +11,9 @@
 #include "protocol/wire/convert.h"
 #include "renderer/shear/brick_volume.h"
 #include "renderer/shear/render.h"
+#include "tests/support/temporary_folder.h"
 
 namespace shearwater::support {
-
-// A folder of its own for one test, gone with it.
-class Scratch {
-  public:
-    Scratch() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "shearwater-XXXXXX").string();
-        base::check(mkdtemp(pattern.data()) != nullptr, "a folder for the test");
-        path_ = pattern;
-    }
-    ~Scratch() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
-    std::string file(const std::string& name) const { return (path_ / name).string(); }
-
-  private:
-    std::filesystem::path path_;
-};
 
 // Twenty views of a cube, reproducible: parallel and perspective, eye far, near and inside, odd sizes.
 inline std::vector<wire::View> twenty_views(const view::Lattice& lattice) {

@@ -1,10 +1,8 @@
 #include "tests/support/fits_fixture.h"
 
 #include <fitsio.h>
-#include <unistd.h>
 #include <zlib.h>
 
-#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -71,18 +69,6 @@ void write_image(fitsfile* file, const FitsImage& image, int* status) {
 }
 
 }  // namespace
-
-TemporaryFolder::TemporaryFolder() {
-    static std::atomic<int> number = 0;
-    folder_ = std::filesystem::temp_directory_path() /
-              ("shearwater-test-" + std::to_string(::getpid()) + "-" + std::to_string(number++));
-    std::filesystem::create_directories(folder_);
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-}
 
 void write_fits(const std::string& path, const std::vector<FitsImage>& images) {
     std::remove(path.c_str());

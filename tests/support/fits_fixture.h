@@ -2,27 +2,14 @@
 // Small FITS files for tests, made through cfitsio or card by card.
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "tests/support/temporary_folder.h"
+
 namespace shearwater::support {
-
-// A folder of its own for a test, removed with all it holds.
-class TemporaryFolder {
-  public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-  private:
-    std::filesystem::path folder_;
-};
 
 // An image of raw values: what is stored, before BSCALE and BZERO.
 struct FitsImage {

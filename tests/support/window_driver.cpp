@@ -64,19 +64,6 @@ std::uint32_t word(const std::string& dump, std::size_t index) {
 
 }  // namespace
 
-TemporaryFolder::TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "shearwater-test-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) {
-        throw std::runtime_error("no temporary folder");
-    }
-    path_ = pattern;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    std::error_code none;
-    fs::remove_all(path_, none);
-}
-
 Process::Process(const std::vector<std::string>& command,
                  const std::map<std::string, std::string>& environment, const fs::path& log) {
     std::vector<std::string> words = command;

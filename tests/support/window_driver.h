@@ -11,24 +11,12 @@
 #include <vector>
 
 #include "common/image/image.h"
+#include "tests/support/temporary_folder.h"
 
 namespace shearwater::test {
 
 using Picture = image::Image<image::Rgba8>;
-
-// A folder of its own, gone with the object.
-class TemporaryFolder {
-  public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
+using support::TemporaryFolder;
 
 // A child process in a group of its own; the whole group is killed with the object.
 class Process {
