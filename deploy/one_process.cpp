@@ -86,7 +86,7 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     for (int i = 0; i < repeat; ++i) {
         clock.lap();
         const auto factorisation =
-            view::factorise(*camera, *size, lattice, view::resolution(view.quality_value()));
+            view::factorise(*camera, *size, lattice, view::sampling(view.quality_value()));
         shear::RenderStats stats;
         const auto windows = shear::render(*volume, factorisation, tf, workers, &stats);
         const double render = clock.lap();

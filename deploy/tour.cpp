@@ -62,7 +62,7 @@ base::Status tour(const std::string& cube_path, const std::string& png_path) {
     // 6. Factorise it once for all leaves. Rays then step from slice to slice along a principal axis, and
     //    all leaves agree on the pixels of the sheared, intermediate image, to the last bit.
     const view::Factorisation factorisation =
-        view::factorise(camera, size, lattice, view::resolution(view::Quality::normal));
+        view::factorise(camera, size, lattice, view::sampling(view::Quality::normal));
 
     // 7. Each leaf renders the window that its box projects to. The nearest box comes first.
     std::vector<image::Window> windows;

@@ -53,27 +53,27 @@ Rect bounding(const Rect& a, const Rect& b) {
     return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
-double resolution(Quality quality) {
+Sampling sampling(Quality quality) {
     switch (quality) {
         case Quality::draft:
-            return 0.5;
+            return {.resolution = 0.5};
         case Quality::high:
-            return 1.5;
+            return {.resolution = 1.5, .slice_exponent = -1};
         case Quality::normal:
             break;
     }
-    return 1;
+    return {};
 }
 
-SliceMap Factorisation::slice_map(const Face& face, double k) const {
+SliceMap Factorisation::slice_map(const Face& face, double w) const {
     const int u = face.u_axis();
     const int v = face.v_axis();
     if (projection == Projection::perspective) {
-        const double depth = k - eye[face.axis];
+        const double depth = w - eye[face.axis];
         return {eye[u] + face.origin.x * depth, face.pitch.x * depth, eye[v] + face.origin.y * depth,
                 face.pitch.y * depth};
     }
-    const double shear = k / direction[face.axis];
+    const double shear = w / direction[face.axis];
     return {face.origin.x + direction[u] * shear, face.pitch.x, face.origin.y + direction[v] * shear,
             face.pitch.y};
 }
@@ -85,7 +85,7 @@ double Factorisation::step(const Face& face, double i, double j) const {
         between[face.u_axis()] = face.origin.x + i * face.pitch.x;
         between[face.v_axis()] = face.origin.y + j * face.pitch.y;
     }
-    return glm::length(between * lattice.spacing);
+    return glm::length(between * lattice.spacing) * slice_pitch();
 }
 
 PixelRange pixels_between(double offset, double scale, double lo, double hi, bool closed, int count) {
@@ -101,16 +101,20 @@ PixelRange pixels_between(double offset, double scale, double lo, double hi, boo
 
 SliceRange slices_in_front(const Factorisation& factorisation, const Face& face, std::int64_t lo,
                            std::int64_t hi) {
-    if (factorisation.projection == Projection::parallel) {
-        return {lo, hi};
+    const double pitch = factorisation.slice_pitch();
+    const double first = std::ceil(static_cast<double>(lo) / pitch);
+    const double last = std::floor(static_cast<double>(hi) / pitch);
+    SliceRange slices{static_cast<std::int64_t>(first), static_cast<std::int64_t>(last)};
+    if (factorisation.projection == Projection::perspective) {
+        // The eye may be anywhere: clamp before the cast.
+        const double eye = std::clamp(factorisation.eye[face.axis] / pitch, first - 2, last + 2);
+        if (face.sign > 0) {
+            slices.first = std::max(slices.first, static_cast<std::int64_t>(std::floor(eye)) + 1);
+        } else {
+            slices.last = std::min(slices.last, static_cast<std::int64_t>(std::ceil(eye)) - 1);
+        }
     }
-    // The eye may be anywhere: clamp before the cast.
-    const double eye =
-        std::clamp(factorisation.eye[face.axis], static_cast<double>(lo) - 2, static_cast<double>(hi) + 2);
-    if (face.sign > 0) {
-        return {std::max(lo, static_cast<std::int64_t>(std::floor(eye)) + 1), hi};
-    }
-    return {lo, std::min(hi, static_cast<std::int64_t>(std::ceil(eye)) - 1)};
+    return slices;
 }
 
 Rect window_of(const Factorisation& factorisation, const Face& face, const volume::Box& box) {
@@ -122,7 +126,7 @@ Rect window_of(const Factorisation& factorisation, const Face& face, const volum
     // bound them all.
     Rect window;
     for (const std::int64_t k : {slices.first, slices.last}) {
-        const SliceMap map = factorisation.slice_map(face, static_cast<double>(k));
+        const SliceMap map = factorisation.slice_map(face, factorisation.slice_place(k));
         const auto along = [&](int axis, double offset, double scale, int count) {
             return pixels_between(offset, scale, static_cast<double>(box.lo[axis]),
                                   static_cast<double>(box.hi[axis]), true, count);
@@ -149,6 +153,9 @@ base::Status validate(const Factorisation& factorisation) {
     }
     if (!finite(factorisation.eye) || !finite(factorisation.direction)) {
         return refuse("its eye or direction is not finite");
+    }
+    if (factorisation.slice_exponent != 0 && factorisation.slice_exponent != -1) {
+        return refuse("its slices are neither a voxel apart nor half of one");
     }
     if (factorisation.faces.size() > Factorisation::max_faces) {
         return refuse("it has more than six faces");

@@ -5,11 +5,12 @@
 //   slice k of a face            intermediate image                  picture
 //   (u, v) voxel coordinates --- pixel (i, j) of the face --- warp --- pixel (px, py)
 //
-// A face has a principal axis w; u = (w + 1) % 3 and v = (w + 2) % 3 are its in-plane axes. The ray of
-// intermediate pixel (i, j) meets slice k at
-//   perspective   u = eye_u + (origin_u + i * pitch_u) * (k - eye_w)     "slopes": the cube around the eye
-//   parallel      u = (origin_u + i * pitch_u) + slope_u * k             positions on slice 0
-// and the same for v with j. Both are  u = offset(k) + scale(k) * i.
+// A face has a principal axis w; u = (w + 1) % 3 and v = (w + 2) % 3 are its in-plane axes. Slice k is the
+// plane of samples at w = k * slice_pitch: a plane of voxels, or one half-way between two. The ray of
+// intermediate pixel (i, j) meets it at
+//   perspective   u = eye_u + (origin_u + i * pitch_u) * (w - eye_w)     "slopes": the cube around the eye
+//   parallel      u = (origin_u + i * pitch_u) + slope_u * w             positions on slice 0
+// and the same for v with j. Both are  u = offset(w) + scale(w) * i.
 
 #include <array>
 #include <cstdint>
@@ -33,8 +34,15 @@ Rect intersection(const Rect& a, const Rect& b);
 Rect bounding(const Rect& a, const Rect& b);  // an empty one counts for nothing
 
 enum class Quality { draft, normal, high };
-// Intermediate pixels per output pixel along a side: 0.5, 1, 1.5.
-double resolution(Quality quality);
+// How densely rays are sampled. Opacity does not depend on it.
+struct Sampling {
+    double resolution = 1;   // intermediate pixels per output pixel along a side
+    int slice_exponent = 0;  // slices lie 2^slice_exponent voxels apart: 0, or -1 for half a voxel
+
+    bool operator==(const Sampling&) const = default;
+};
+// draft: half the resolution; high: one and a half of it, and two slices a voxel.
+Sampling sampling(Quality quality);
 
 struct Face {
     int axis = 2;   // principal axis w
@@ -49,7 +57,7 @@ struct Face {
     int v_axis() const { return (axis + 2) % 3; }
 };
 
-// Where slice k's voxels lie under a face's pixels: u = u_offset + u_scale * i, v likewise with j.
+// Where a plane's voxels lie under a face's pixels: u = u_offset + u_scale * i, v likewise with j.
 struct SliceMap {
     double u_offset, u_scale, v_offset, v_scale;
 };
@@ -64,19 +72,23 @@ struct Factorisation {
     // Voxel space: the eye (perspective), or the direction that rays go (parallel).
     Vec3 eye{};
     Vec3 direction{};
+    int slice_exponent = 0;  // as in Sampling
     std::vector<Face> faces;
 
     bool operator==(const Factorisation&) const = default;
 
-    SliceMap slice_map(const Face& face, double k) const;
+    double slice_pitch() const { return slice_exponent == 0 ? 1 : 0.5; }  // voxels from slice to slice
+    double slice_place(std::int64_t k) const { return static_cast<double>(k) * slice_pitch(); }
+    // Of the plane at w, in voxels along the face's axis.
+    SliceMap slice_map(const Face& face, double w) const;
     // World length of the ray of pixel (i, j) between two slices.
     double step(const Face& face, double i, double j) const;
 };
 
 // The faces that the picture needs, each just large enough for its part of the picture and of the cube.
-// `quality` sets the pixels' pitch. The camera and size are valid.
+// The camera and size are valid.
 Factorisation factorise(const Camera& camera, const ImageSize& size, const Lattice& lattice,
-                        double resolution);
+                        const Sampling& sampling);
 
 // Half-open range of pixels along one side of a face.
 struct PixelRange {
@@ -88,8 +100,8 @@ struct PixelRange {
 // gets the very same answer, so ranges that meet at a plane neither share a pixel nor leave one out.
 PixelRange pixels_between(double offset, double scale, double lo, double hi, bool closed, int count);
 
-// The slices of a face in [lo, hi] that lie in front of the eye: [first, last], empty if last < first.
-// In a parallel view all do.
+// The slices of a face that lie in the voxels [lo, hi] and in front of the eye: [first, last], empty if
+// last < first. In a parallel view all are in front.
 struct SliceRange {
     std::int64_t first = 0, last = -1;
     bool operator==(const SliceRange&) const = default;

@@ -185,7 +185,7 @@ Interval cube_slopes(const Factorisation& factorisation, const Face& face, const
                      int axis) {
     Interval range;
     for (const std::int64_t k : {slices.first, slices.last}) {
-        const double depth = static_cast<double>(k) - factorisation.eye[face.axis];
+        const double depth = factorisation.slice_place(k) - factorisation.eye[face.axis];
         range.add(-factorisation.eye[axis] / depth);
         range.add((static_cast<double>(factorisation.lattice.n[axis] - 1) - factorisation.eye[axis]) / depth);
     }
@@ -246,18 +246,20 @@ void plan_parallel(std::vector<Plan>& plans, const Factorisation& factorisation,
 }  // namespace
 
 Factorisation factorise(const Camera& camera, const ImageSize& size, const Lattice& lattice,
-                        double resolution) {
+                        const Sampling& sampling) {
     const Rays rays = in_voxel_space(rays_of(camera, size), lattice);
-    Factorisation factorisation{.projection = camera.projection, .lattice = lattice};
+    Factorisation factorisation{.projection = camera.projection,
+                                .lattice = lattice,
+                                .slice_exponent = sampling.slice_exponent};
     const Polygon picture = whole_picture(size);
     std::vector<Plan> plans;
     if (camera.projection == Projection::perspective) {
         factorisation.eye = rays.origin;
         factorisation.direction = lattice.voxel_direction(glm::normalize(camera.target - camera.eye));
-        plan_perspective(plans, factorisation, rays, picture, resolution);
+        plan_perspective(plans, factorisation, rays, picture, sampling.resolution);
     } else {
         factorisation.direction = rays.dir;
-        plan_parallel(plans, factorisation, rays, picture, resolution);
+        plan_parallel(plans, factorisation, rays, picture, sampling.resolution);
     }
     lay_all(plans, factorisation);
     return factorisation;

@@ -222,6 +222,7 @@ pb::Factorisation to_wire(const view::Factorisation& factorisation) {
     *to.mutable_lattice() = to_wire(factorisation.lattice);
     set(*to.mutable_eye(), factorisation.eye);
     set(*to.mutable_direction(), factorisation.direction);
+    to.set_slice_exponent(factorisation.slice_exponent);
     for (const view::Face& face : factorisation.faces) {
         *to.add_faces() = to_wire(face);
     }
@@ -237,6 +238,9 @@ Parsed<view::Factorisation> factorisation_from(const pb::Factorisation& factoris
     if (!lattice) {
         return lattice.error();
     }
+    if (factorisation.slice_exponent() != 0 && factorisation.slice_exponent() != -1) {
+        return invalid("factorisation.slice_exponent: 0 or -1 is wanted");
+    }
     auto faces = faces_from(factorisation);
     if (!faces) {
         return faces.error();
@@ -245,6 +249,7 @@ Parsed<view::Factorisation> factorisation_from(const pb::Factorisation& factoris
                              .lattice = *lattice,
                              .eye = vec3_from(factorisation.eye()),
                              .direction = vec3_from(factorisation.direction()),
+                             .slice_exponent = factorisation.slice_exponent(),
                              .faces = std::move(*faces)};
     if (!finite(from.eye) || !finite(from.direction)) {
         return invalid("factorisation: a finite eye and direction are wanted");

@@ -6,6 +6,8 @@
 #include <type_traits>
 
 #include "common/volume/quantiser.h"
+#include "renderer/shear/kernel.h"
+#include "renderer/shear/micro_bricks.h"
 
 namespace shearwater::shear {
 
@@ -58,21 +60,9 @@ std::size_t offset_in(const Box& box, std::int64_t x, std::int64_t y, std::int64
                                     (x - box.lo[0]));
 }
 
-template <class Code>
-void note(Brick& brick, std::span<const Code> codes) {
-    for (const Code code : codes) {
-        if (code == 0) {
-            brick.has_blanks = true;
-        } else {
-            brick.min = std::min<std::uint16_t>(brick.min, code);
-            brick.max = std::max<std::uint16_t>(brick.max, code);
-        }
-    }
-}
-
 // Quantises a chunk's voxels into the part of a brick that lies in it.
 template <class Code>
-void fill(Brick& brick, std::span<Code> store, const Box& chunk, std::span<const float> values,
+void fill(const Brick& brick, std::span<Code> store, const Box& chunk, std::span<const float> values,
           const volume::Quantiser& quantiser) {
     Box part;
     if (!common_planes(brick.box, chunk, part)) {
@@ -84,7 +74,6 @@ void fill(Brick& brick, std::span<Code> store, const Box& chunk, std::span<const
             const auto from = values.subspan(offset_in(chunk, part.lo[0], y, z), length);
             const auto to = store.subspan(brick.first + offset_in(brick.box, part.lo[0], y, z), length);
             quantiser.codes(from, to);
-            note<Code>(brick, to);
         }
     }
 }
@@ -142,8 +131,9 @@ base::Result<BrickVolume> BrickVolume::load(volume::VoxelSource& source, const B
     try {
         volume.bricks_ = lay_bricks(box, volume.grid_);
         const Brick& last = volume.bricks_.back();
-        const std::size_t codes = last.first + static_cast<std::size_t>(last.box.voxels());
+        const std::size_t codes = last.first + static_cast<std::size_t>(last.box.voxels()) + voxel_padding;
         mapping.bits == 8 ? volume.codes8_.resize(codes) : volume.codes16_.resize(codes);
+        volume.micro_bricks_.resize(volume.bricks_.size());
         const auto filled = volume.fill_from(source, workers, progress, stop, slab_bytes);
         return filled ? base::Result<BrickVolume>(std::move(volume)) : filled.error();
     } catch (const std::bad_alloc&) {
@@ -186,12 +176,17 @@ base::Status BrickVolume::fill_from(volume::VoxelSource& source, base::Workers& 
             progress(static_cast<double>(done + 1) / static_cast<double>(chunks.size()));
         }
     }
+    workers.for_each(static_cast<std::int64_t>(bricks_.size()), [&](std::int64_t i) {
+        const auto n = static_cast<std::size_t>(i);
+        mapping_.bits == 8 ? survey_codes<std::uint8_t>(codes8_, bricks_[n], micro_bricks_[n])
+                           : survey_codes<std::uint16_t>(codes16_, bricks_[n], micro_bricks_[n]);
+    });
     return {};
 }
 
 std::size_t BrickVolume::bytes() const {
-    return bricks_.capacity() * sizeof(Brick) + codes8_.capacity() +
-           codes16_.capacity() * sizeof(std::uint16_t);
+    return bricks_.capacity() * sizeof(Brick) + micro_bricks_.capacity() * sizeof(MicroBricks) +
+           codes8_.capacity() + codes16_.capacity() * sizeof(std::uint16_t);
 }
 
 const Brick& BrickVolume::brick(std::int64_t bx, std::int64_t by, std::int64_t bz) const {

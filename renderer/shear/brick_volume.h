@@ -1,6 +1,7 @@
 #pragma once
 // A leaf's sub-volume as quantised bricks: one copy that serves all three principal axes.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <stop_token>
@@ -27,6 +28,15 @@ struct Brick {
     bool empty() const { return min > max; }
 };
 
+// A brick's cells in cubes of 8^3, 4 x 4 x 4 of them counted from its first cell, axis 0 fastest, each with
+// the codes that occur on its planes (the ninth included): what a transfer function may pass over.
+struct MicroBricks {
+    static constexpr std::int64_t edge = 8;
+    static constexpr std::size_t count = 64;
+
+    std::array<std::uint16_t, count> min, max;  // of codes that are not blank; min > max where there are none
+};
+
 class BrickVolume {
   public:
     static constexpr std::int64_t edge = 32;
@@ -48,8 +58,9 @@ class BrickVolume {
     const volume::Index3& grid() const { return grid_; }
     const Brick& brick(std::int64_t bx, std::int64_t by, std::int64_t bz) const;
     std::span<const Brick> bricks() const { return bricks_; }
+    std::span<const MicroBricks> micro_bricks() const { return micro_bricks_; }  // of each brick
 
-    // The codes, for 8 and for 16 bits; the other is empty.
+    // The codes, for 8 and for 16 bits; the other is empty. Behind the last lie voxel_padding bytes more.
     std::span<const std::uint8_t> codes8() const { return codes8_; }
     std::span<const std::uint16_t> codes16() const { return codes16_; }
 
@@ -63,6 +74,7 @@ class BrickVolume {
     volume::Index3 grid_{};
     volume::Mapping mapping_;
     std::vector<Brick> bricks_;
+    std::vector<MicroBricks> micro_bricks_;
     std::vector<std::uint8_t> codes8_;
     std::vector<std::uint16_t> codes16_;
 };

@@ -1,10 +1,17 @@
 #pragma once
 // What the tiles of one face share in a frame: where each slice of each brick lies in the face's image,
 // the order to visit bricks in, and the length each sample stands for.
+//
+// Bricks hold axis 0 fastest. A face is rendered in rows along its fast axis, the in-plane one whose voxels
+// are adjacent, or will be once a brick is turned (axis 0 being the principal one); the other is its slow
+// axis. All rectangles and pixels here are turned the same way: x and i along the fast axis, y and j along
+// the slow one.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "common/base/workers.h"
 #include "common/view/factorisation.h"
 #include "renderer/shear/brick_volume.h"
 
@@ -12,41 +19,53 @@ namespace shearwater::shear {
 
 class FacePlan {
   public:
-    FacePlan(const BrickVolume& volume, const view::Factorisation& factorisation, int face_index);
+    FacePlan(const BrickVolume& volume, const view::Factorisation& factorisation, int face_index,
+             base::Workers& workers);
 
-    int face_index() const { return face_index_; }
     const view::Face& face() const { return face_; }
     const view::Factorisation& factorisation() const { return factorisation_; }
+    int fast_axis() const { return turned() ? face_.v_axis() : face_.u_axis(); }
+    int slow_axis() const { return turned() ? face_.u_axis() : face_.v_axis(); }
+    // Whether rows run along v, so that the face's image is the transpose of what is rendered.
+    bool turned() const { return face_.axis == 1; }
+    view::Rect turn(const view::Rect& rect) const {
+        return turned() ? view::Rect{rect.y0, rect.x0, rect.y1, rect.x1} : rect;
+    }
     // The pixels that the sub-volume may reach.
     const view::Rect& window() const { return window_; }
 
     // Bricks' places along each axis, in an order that is front to back along every ray of the face, the
     // principal axis being the outermost loop.
     const std::vector<std::int64_t>& layers() const { return order_[0]; }
-    const std::vector<std::int64_t>& columns() const { return order_[1]; }
-    const std::vector<std::int64_t>& rows() const { return order_[2]; }
+    const std::vector<std::int64_t>& columns() const { return order_[1]; }  // along the fast axis
+    const std::vector<std::int64_t>& rows() const { return order_[2]; }     // along the slow axis
     // The slices that the bricks of a layer own and that are in front of the eye.
     view::SliceRange slices_of_layer(std::int64_t layer) const;
-    // The pixels whose samples on slice k the bricks of a column own along u; of a row, along v.
+    // The pixels whose samples on slice k the bricks of a column own along the fast axis; of a row, along
+    // the slow one.
     const view::PixelRange& pixels_of_column(std::int64_t k, std::int64_t column) const;
     const view::PixelRange& pixels_of_row(std::int64_t k, std::int64_t row) const;
 
+    // Where voxels of the plane at w lie under pixels, fast as u and slow as v.
+    view::SliceMap slice_map(double w) const;
+    // World lengths between two slices of the rays of pixels of row j from i on.
+    void steps(int i, int j, std::span<float> out) const;
     // The pixels whose rays meet slice k inside the cube; none where k is behind the eye.
     const view::Rect& inside(std::int64_t k) const;
-    // How many slice distances the sample of slice k stands for on the ray of a pixel inside(k). A sample
-    // stands for the half distances to both sides; the first and the last on a ray reach to where the ray
-    // enters and leaves the cube, so that together they cover it exactly.
-    double share(std::int64_t k, int i, int j) const;
+    // How many slice distances the samples of slice k stand for on the rays of pixels of row j from i on, all
+    // inside(k). A sample stands for the half distances to both sides; the first and the last on a ray
+    // reach to where the ray enters and leaves the cube, so that together they cover it exactly.
+    void shares(std::int64_t k, int i, int j, std::span<float> out) const;
 
   private:
-    struct Axis;
-    void lay_slices(const BrickVolume& volume);
+    void lay_slices(const BrickVolume& volume, base::Workers& workers);
+    void lay_slice(const BrickVolume& volume, std::int64_t k);
     std::vector<std::int64_t> front_to_back(const BrickVolume& volume, int axis) const;
     std::size_t slot(std::int64_t k) const { return static_cast<std::size_t>(k - slices_.first); }
+    bool perspective() const { return factorisation_.projection == view::Projection::perspective; }
 
     const view::Factorisation& factorisation_;
     const view::Face& face_;
-    int face_index_;
     volume::Index3 last_voxel_;  // of the cube
     view::Rect window_;
     view::SliceRange slices_;  // that the sub-volume owns, in front of the eye

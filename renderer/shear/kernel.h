@@ -1,78 +1,83 @@
 #pragma once
-// The inner loop: the samples of one slice of one brick along one row of intermediate pixels. This is its
-// scalar form, and its definition: any faster form gives the same within rounding.
+// The inner loop: the samples of a few slices of one brick over some intermediate pixels.
 //
-//   row1  o-----o-----o-----o      voxels of the slice, `stride` apart along u
-//              .  .  .  .          samples: pixel n's lies at u + n * u_scale, v_fraction from row0 to row1
-//   row0  o-----o-----o-----o
+//              fast ->            voxels of a slice: adjacent along its fast axis, rows `stride` apart
+//   slow  o-----o-----o-----o
+//    |       .  .  .  .           samples: pixel (i, j)'s lies at (fast_offset + i * fast_scale,
+//    v    o-----o-----o-----o     slow_offset + j * slow_scale) in the cube's voxels
+//            .  .  .  .
+//
+// A slice lies on a plane of voxels, or half-way to the next. Where in a cell a sample lies is rounded to
+// whole cell_steps, from what does not depend on how the cube is divided into bricks, nor the image into
+// tiles.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
+#include "common/view/factorisation.h"
 #include "renderer/shear/opacity_table.h"
 
 namespace shearwater::shear {
 
 template <class Code>
-struct VoxelRows {
-    const Code* row0;
-    const Code* row1;
-    std::ptrdiff_t stride;
-    int cells;         // a row holds cells + 1 voxels
-    float v_fraction;  // in [0, 1]
-    float u;           // of the first pixel, in voxels from the row's first
-    float u_scale;     // per pixel, of either sign
+struct Slice {
+    const Code* voxels;  // the brick's first
+    const Code* next;    // the next plane of voxels where the slice lies half-way to it, else null
+    double fast_offset, fast_scale;
+    double slow_offset, slow_scale;
+    view::Rect pixels;  // whose samples are wanted, half-open, counted from the tile's first
+    // The length that a sample stands for on each ray, laid out as Rays, in OpacityTable::depth_unit().
+    const float* lengths;
 };
 
-// What rays have gathered so far, premultiplied, one array per channel and one ray per pixel.
-struct RaySpan {
-    float* r;
-    float* g;
-    float* b;
-    float* a;
+// Slices of one brick that follow one another front to back.
+template <class Code>
+struct Slab {
+    static constexpr int max_slices = 8;
+
+    std::ptrdiff_t stride;
+    std::int64_t fast_first, slow_first;  // the brick's first voxel
+    int fast_pixel, slow_pixel;           // the tile's first pixel
+    int fast_cells, slow_cells;           // a row holds fast_cells + 1 voxels
+    bool blanks;                          // whether code 0, which is no value, occurs
+    bool between_nodes;  // whether extinction is interpolated, or that of the nearest node will do
+    int count;
+    std::array<Slice<Code>, max_slices> slices;
 };
+// Bytes beyond a brick's last row that may be read, though to no effect.
+inline constexpr std::size_t voxel_padding = 1024;
+
+// What the rays of a tile have gathered so far, premultiplied. One array each, `stride` from row to row,
+// with ray_padding floats beyond every row's last that may be read and written back unchanged.
+struct Rays {
+    float *r, *g, *b, *a;
+    std::ptrdiff_t stride;
+};
+inline constexpr int ray_padding = 32;
+inline constexpr int widest_tile = 64;  // pixels along the fast axis
 
 // A ray with less light left than this is done: well below half a level of 255.
 inline constexpr float opaque_enough = 1 - 1.0F / 4096;
+// What of a sample's corners has to be valid: one half, which rounding does not undo.
+inline constexpr float least_valid = 0.4999F;
+// Samples lie on whole steps of this many from one voxel to the next.
+inline constexpr int cell_steps = 127;
 
-// 1 - exp(-x) for x >= 0, accurate for tiny x too: optical depths add up over a thousand slices.
-inline float opacity_of(float depth) {
-    const float x = (depth < 16 ? depth : 16.0F) * (1.0F / 16);
-    // Taylor's series on [0, 1], then 1 - exp(-2x) = e (2 - e) four times.
-    float e =
-        x *
-        (1 -
-         x * (1.0F / 2) *
-             (1 - x * (1.0F / 3) *
-                      (1 - x * (1.0F / 4) *
-                               (1 - x * (1.0F / 5) *
-                                        (1 - x * (1.0F / 6) *
-                                                 (1 - x * (1.0F / 7) *
-                                                          (1 - x * (1.0F / 8) * (1 - x * (1.0F / 9)))))))));
-    for (int i = 0; i < 4; ++i) {
-        e *= 2 - e;
-    }
-    return e;
-}
+// Puts the samples of every slice behind the rays of its pixels. A sample is interpolated bilinearly, on
+// slices half-way between the two; with blanks it is the mean of its valid corners, and transparent where
+// they weigh less than one half. Returns the number of samples taken: rays that are done before take none.
+template <class Code>
+std::uint64_t composite_slab(const Slab<Code>& slab, const OpacityTable& table, const Rays& rays);
 
-// Puts one sample behind each of lengths.size() rays. lengths: the world length each sample stands for.
-// With `blanks`, code 0 is no value: a sample is the mean of its valid corners, and transparent where
-// they weigh less than one half. Returns the number of samples taken: rays that are done take none.
-template <class Code, bool blanks>
-int composite_span(const VoxelRows<Code>& voxels, std::span<const float> lengths, const OpacityTable& table,
-                   const RaySpan& rays);
+// Its definition, one sample after the other; the other gives the same within rounding.
+template <class Code>
+std::uint64_t composite_slab_by_definition(const Slab<Code>& slab, const OpacityTable& table,
+                                           const Rays& rays);
 
-extern template int composite_span<std::uint8_t, false>(const VoxelRows<std::uint8_t>&,
-                                                        std::span<const float>, const OpacityTable&,
-                                                        const RaySpan&);
-extern template int composite_span<std::uint8_t, true>(const VoxelRows<std::uint8_t>&, std::span<const float>,
-                                                       const OpacityTable&, const RaySpan&);
-extern template int composite_span<std::uint16_t, false>(const VoxelRows<std::uint16_t>&,
-                                                         std::span<const float>, const OpacityTable&,
-                                                         const RaySpan&);
-extern template int composite_span<std::uint16_t, true>(const VoxelRows<std::uint16_t>&,
-                                                        std::span<const float>, const OpacityTable&,
-                                                        const RaySpan&);
+extern template std::uint64_t composite_slab_by_definition(const Slab<std::uint8_t>&, const OpacityTable&,
+                                                           const Rays&);
+extern template std::uint64_t composite_slab_by_definition(const Slab<std::uint16_t>&, const OpacityTable&,
+                                                           const Rays&);
 
 }  // namespace shearwater::shear

@@ -1,19 +1,110 @@
 #include "renderer/shear/opacity_table.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace shearwater::shear {
 
-OpacityTable::OpacityTable(const view::TransferFunction& tf, int levels)
-    : scale_(static_cast<float>(entries - 1) / static_cast<float>(levels - 1)), bias_(0.5F - scale_) {
-    entries_.reserve(entries);
-    opaque_before_.push_back(0);
-    for (int i = 0; i < entries; ++i) {
-        const double s = static_cast<double>(i) / (entries - 1);
+namespace {
+
+constexpr int codes_per_node_16 = 16;
+// Where the function's pins begin, end or bend.
+std::vector<double> bends_of(const view::TransferFunction& tf) {
+    std::vector<double> bends;
+    for (const view::OpacityPin& pin : tf.opacity_pins) {
+        if (const auto* ramp = std::get_if<view::Ramp>(&pin)) {
+            bends.insert(bends.end(), {ramp->x0, ramp->x1});
+        } else if (const auto* hat = std::get_if<view::Hat>(&pin)) {
+            for (const double width : {-hat->base, -hat->top, hat->top, hat->base}) {
+                bends.push_back(hat->centre + width / 2);
+            }
+        } else if (const auto* blank = std::get_if<view::Blank>(&pin)) {
+            bends.insert(bends.end(), {blank->lo, blank->hi});
+        }
+    }
+    std::sort(bends.begin(), bends.end());
+    return bends;
+}
+
+// The mean about s; where no pin bends nearby, that is the value at s.
+double mean_extinction(const view::TransferFunction& tf, const std::vector<double>& bends, double s,
+                       double half_width) {
+    const double end = std::min(s + half_width, 1.0);
+    double from = std::max(s - half_width, 0.0);
+    auto bend = std::upper_bound(bends.begin(), bends.end(), from);
+    if (bend == bends.end() || *bend >= end) {
+        return tf.extinction(s);
+    }
+    const double width = end - from;
+    double sum = 0;
+    while (from < end) {
+        const double to = bend == bends.end() ? end : std::min(*bend++, end);
+        constexpr int parts = 4;
+        for (int i = 0; i < parts; ++i) {
+            sum += tf.extinction(from + (i + 0.5) / parts * (to - from)) * (to - from) / parts;
+        }
+        from = to;
+    }
+    return sum / width;
+}
+
+// The word that becomes the float x, 0 <= x <= largest, once shifted; 0 where x is too small for one that is
+// normal.
+std::uint16_t word_of_extinction(float x) {
+    constexpr int shift = OpacityTable::Bytes::extinction_shift;
+    if (x < std::numeric_limits<float>::min()) {
+        return 0;
+    }
+    return static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(x) + (1U << (shift - 1))) >> shift);
+}
+
+}  // namespace
+
+OpacityTable::OpacityTable(const view::TransferFunction& tf, int levels) {
+    const int codes_per_node = levels == 255 ? 1 : codes_per_node_16;
+    const int count = (levels + 1) / codes_per_node + 1;
+    nodes_per_code_ = 1.0F / static_cast<float>(codes_per_node);
+    const std::vector<double> bends = bends_of(tf);
+    std::vector<double> extinctions;
+    for (int i = 0; i < count; ++i) {
+        const double s = std::clamp((i * codes_per_node - 1.0) / (levels - 1), 0.0, 1.0);
         const view::Rgb colour = tf.colour(s);
-        entries_.push_back({static_cast<float>(colour.r), static_cast<float>(colour.g),
-                            static_cast<float>(colour.b), static_cast<float>(tf.extinction(s))});
-        opaque_before_.push_back(opaque_before_.back() + (entries_.back().extinction > 0 ? 1 : 0));
+        nodes_.push_back(
+            {static_cast<float>(colour.r), static_cast<float>(colour.g), static_cast<float>(colour.b), 0});
+        extinctions.push_back(mean_extinction(tf, bends, s, 0.5 * codes_per_node / (levels - 1)));
+    }
+    const double unit = *std::max_element(extinctions.begin(), extinctions.end()) / double{largest};
+    depth_unit_ = static_cast<float>(unit * std::numbers::log2e);
+    opaque_before_.push_back(0);
+    for (int i = 0; i < count; ++i) {
+        Node& node = nodes_[static_cast<std::size_t>(i)];
+        node.extinction = unit > 0 ? static_cast<float>(extinctions[static_cast<std::size_t>(i)] / unit) : 0;
+        steepest_ = i > 0 ? std::max(steepest_, std::abs(node.extinction - (&node)[-1].extinction)) : 0;
+        opaque_before_.push_back(opaque_before_.back() + (node.extinction > 0 ? 1 : 0));
+    }
+    nodes_.push_back(nodes_.back());
+    if (codes_per_node == 1) {
+        fill_bytes();
+    }
+}
+
+void OpacityTable::fill_bytes() {
+    for (std::size_t code = 0; code < 256; ++code) {
+        const auto put = [code](std::uint16_t word, Bytes::Word& table) {
+            table.high[code] = static_cast<std::uint8_t>(word >> 8);
+            table.low[code] = static_cast<std::uint8_t>(word & 255);
+        };
+        const auto colour = [](float x) {
+            return static_cast<std::uint16_t>(std::lround(x * static_cast<float>(Bytes::full_colour)));
+        };
+        const Node& node = nodes_[code];
+        put(colour(node.r), bytes_.r);
+        put(colour(node.g), bytes_.g);
+        put(colour(node.b), bytes_.b);
+        put(word_of_extinction(node.extinction), bytes_.extinction);
     }
 }
 
@@ -21,11 +112,9 @@ bool OpacityTable::any_opacity(std::uint16_t min, std::uint16_t max) const {
     if (min > max) {
         return false;
     }
-    // One entry more on either side: interpolation may round beyond its corners.
-    const int first = std::max(static_cast<int>(static_cast<float>(min) * scale_ + bias_) - 1, 0);
-    const int last = std::min(static_cast<int>(static_cast<float>(max) * scale_ + bias_) + 1, entries - 1);
-    return opaque_before_[static_cast<std::size_t>(last) + 1] >
-           opaque_before_[static_cast<std::size_t>(first)];
+    const auto first = static_cast<std::size_t>(static_cast<float>(min) * nodes_per_code_);
+    const auto last = static_cast<std::size_t>(std::ceil(static_cast<float>(max) * nodes_per_code_));
+    return opaque_before_[last + 1] > opaque_before_[first];
 }
 
 }  // namespace shearwater::shear

@@ -1,7 +1,9 @@
 #pragma once
-// A transfer function made ready for the kernel: colour and extinction on a fine grid of s.
+// A transfer function made ready for the kernel: colour and extinction at nodes along the codes.
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "common/view/transfer_function.h"
@@ -10,28 +12,52 @@ namespace shearwater::shear {
 
 class OpacityTable {
   public:
-    // Colour, not premultiplied, and optical depth per world unit of length.
-    struct Entry {
+    // Colour, not premultiplied, and extinction in depth_unit().
+    struct Node {
         float r, g, b, extinction;
     };
-    static constexpr int entries = 4096;
+    // The same for 8-bit codes in the form that byte permutations look up: words, their high and low bytes
+    // apart. Colours are of full_colour; an extinction is a float once shifted to the left, rounded.
+    struct Bytes {
+        static constexpr int full_colour = 32767;
+        static constexpr int extinction_shift = 12;
+        using Plane = std::array<std::uint8_t, 256>;
+        struct Word {
+            alignas(64) Plane high, low;
+        };
+        Word r, g, b, extinction;
+    };
+    // The greatest extinction in depth_unit(): what is left below it of the words spans nine decades.
+    static constexpr float largest = 0x1p-96F;
 
     // `levels` as Mapping::levels(): codes 1 to levels stand for s from 0 to 1.
     OpacityTable(const view::TransferFunction& tf, int levels);
 
-    // The entry nearest to an interpolated code in [1, levels] is number int(code * scale() + bias()).
-    float scale() const { return scale_; }
-    float bias() const { return bias_; }
-    const Entry* data() const { return entries_.data(); }
+    // An interpolated code lies at node code * nodes_per_code(): every code is a node for 8 bits, every
+    // sixteenth for 16. A sample's colour is that of the nearest node; its extinction is linear between
+    // nodes, where a node has the mean over the stretch it is nearest to, so that no pin, however narrow,
+    // falls between two.
+    float nodes_per_code() const { return nodes_per_code_; }
+    const Node* nodes() const { return nodes_.data(); }  // and one more after the last
+    const Bytes& bytes() const { return bytes_; }        // for 8 bits only
 
-    // Whether any code from min to max, interpolated ones included, has opacity.
+    // Along a ray of world length L a sample of extinction e lets 2^(-e * L * depth_unit()) of light pass.
+    float depth_unit() const { return depth_unit_; }
+
+    // How much extinction changes at most from one node to the next, in depth_unit().
+    float steepest() const { return steepest_; }
+    // Whether some code from min to max, interpolated ones included, has opacity; none has if min > max.
     bool any_opacity(std::uint16_t min, std::uint16_t max) const;
 
   private:
-    float scale_;
-    float bias_;
-    std::vector<Entry> entries_;
-    std::vector<int> opaque_before_;  // entries with opacity before each
+    void fill_bytes();
+
+    float nodes_per_code_;
+    float depth_unit_;
+    float steepest_ = 0;
+    std::vector<Node> nodes_;
+    std::vector<int> opaque_before_;  // nodes with opacity before each
+    Bytes bytes_{};
 };
 
 }  // namespace shearwater::shear

@@ -10,6 +10,7 @@
 #include "common/view/factorisation.h"
 #include "common/view/transfer_function.h"
 #include "renderer/shear/brick_volume.h"
+#include "renderer/shear/classification.h"
 
 namespace shearwater::shear {
 
@@ -20,10 +21,14 @@ struct RenderStats {
     std::uint64_t bricks_rendered = 0;  // seen by at least one ray
 };
 
-// Renders the volume for every face, front to back with early termination. The factorisation's lattice
-// is the cube's. Samples are placed by global voxel index, so windows of leaves that share a
+// Renders a classified volume for every face, front to back with early termination. The factorisation's
+// lattice is the cube's. Samples are placed by global voxel index, so windows of leaves that share a
 // factorisation merge exactly. At most one window a face, none where the box projects to nothing.
 // Stops soon after `stop` is requested; what it then returns is of no use.
+std::vector<image::Window> render(const BrickVolume& volume, const Classification& classification,
+                                  const view::Factorisation& factorisation, base::Workers& workers,
+                                  RenderStats* stats = nullptr, const std::stop_token& stop = {});
+// Classifies it first.
 std::vector<image::Window> render(const BrickVolume& volume, const view::Factorisation& factorisation,
                                   const view::TransferFunction& tf, base::Workers& workers,
                                   RenderStats* stats = nullptr, const std::stop_token& stop = {});

@@ -246,7 +246,7 @@ void Head::begin_frames(wire::LinkId client, Session& session, wire::Time now, E
         session.begun = now;
         const wire::View& view = *session.latest;
         const view::Factorisation factorisation =
-            view::factorise(view.camera, view.size, roster_.cube().lattice, view::resolution(view.quality));
+            view::factorise(view.camera, view.size, roster_.cube().lattice, view::sampling(view.quality));
         pb::Render render;
         render.set_frame(++last_frame_);
         *render.mutable_factorisation() = wire::to_wire(factorisation);

@@ -16,7 +16,7 @@ const wire::Time start{};
 
 view::Factorisation factorisation() {
     const view::Lattice lattice{.n = {9, 9, 9}, .spacing = {1, 1, 1}};
-    return view::factorise(view::camera_on({}, lattice), {.width = 32, .height = 32}, lattice, 1);
+    return view::factorise(view::camera_on({}, lattice), {.width = 32, .height = 32}, lattice, {1});
 }
 
 pb::Render render(std::uint64_t frame) {

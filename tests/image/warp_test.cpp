@@ -70,7 +70,7 @@ TEST(Warp, GivesEveryPixelItsRaysValueAndEndsAtTheCube) {
         for (const double distance : {0.0, 10.0, 60.0}) {
             const Camera camera =
                 view::camera_on({40, 25, distance}, lattice, projection, distance == 10 ? 120 : 40);
-            const Factorisation f = view::factorise(camera, size, lattice, 1);
+            const Factorisation f = view::factorise(camera, size, lattice, {1});
             const auto picture = warp_float(f, patterned(f), camera, size, workers);
             const view::Rays rays = in_voxel_space(view::rays_of(camera, size), lattice);
             const bool perspective = projection == Projection::perspective;
@@ -97,7 +97,7 @@ TEST(Warp, StaysWithinWhatAPixelCanBe) {
     base::Workers workers;
     const Camera camera = view::camera_on({33, 12}, lattice);
     const ImageSize size{100, 100};
-    const Factorisation f = view::factorise(camera, size, lattice, 0.5);
+    const Factorisation f = view::factorise(camera, size, lattice, {0.5});
     std::vector<Window> windows = patterned(f);
     for (Window& window : windows) {
         for (std::size_t i = 0; i < window.pixels.pixels().size(); ++i) {
@@ -116,7 +116,7 @@ TEST(Warp, PutsThePictureOnItsBackground) {
     base::Workers workers;
     const Camera camera = view::camera_on({}, lattice);
     const ImageSize size{60, 40};
-    const Factorisation f = view::factorise(camera, size, lattice, 1);
+    const Factorisation f = view::factorise(camera, size, lattice, {1});
     const auto picture = warp(f, patterned(f), camera, size, {0.2, 0.4, 1}, workers);
     const auto floats = warp_float(f, patterned(f), camera, size, workers);
     EXPECT_EQ(picture.at(0, 0), (Rgba8{51, 102, 255, 255}));
@@ -130,7 +130,7 @@ TEST(Warp, TakesWindowsSmallerThanTheFace) {
     base::Workers workers;
     const Camera camera = view::camera_on({}, lattice);
     const ImageSize size{100, 100};
-    const Factorisation f = view::factorise(camera, size, lattice, 1);
+    const Factorisation f = view::factorise(camera, size, lattice, {1});
     auto whole = patterned(f);
     ASSERT_EQ(whole.size(), 1U);
     const Rect half{0, 0, f.faces[0].width / 2, f.faces[0].height};

@@ -114,7 +114,7 @@ struct Picture {
 
 Picture picture_of_tree(const Tree& tree, const Lattice& lattice, const view::Camera& camera,
                         const ImageSize& size, const view::TransferFunction& tf, base::Workers& workers) {
-    const Factorisation f = view::factorise(camera, size, lattice, 1);
+    const Factorisation f = view::factorise(camera, size, lattice, {1});
     Picture picture;
     const auto windows = tree.render(f, tf, workers, picture.samples);
     picture.pixels = image::warp(f, windows, camera, size, {0, 0, 0}, workers);

@@ -110,7 +110,7 @@ TEST_P(SlabTest, HasTheOpacityOfItsThicknessInEveryView) {
     for (const double depth : {0.001, 2.0}) {  // through the diagonal
         const double tau = depth / lattice.diagonal();
         for (const auto& [name, camera] : all_views(lattice, depth < 1 ? 5 : 1)) {
-            const auto f = view::factorise(camera, size, lattice, 1);
+            const auto f = view::factorise(camera, size, lattice, {1});
             const auto windows = shear::render(volume, f, flat(tau), workers);
             EXPECT_LT(window_error(f, windows, tau).error, 2e-4) << name << ", depth " << depth;
             const Worst worst = picture_error(picture_of(volume, lattice, flat(tau), camera, size, workers),
@@ -134,7 +134,7 @@ TEST(SlabTest, ShortRaysGetNoMoreThanTheirDue) {
     const auto volume = bricks_of(cube, workers);
     const double tau = 0.1;
     for (const auto& [name, camera] : all_views(lattice)) {
-        const auto f = view::factorise(camera, {120, 120}, lattice, 1);
+        const auto f = view::factorise(camera, {120, 120}, lattice, {1});
         for (const image::Window& window : shear::render(volume, f, flat(tau), workers)) {
             const Face& face = f.faces[static_cast<std::size_t>(window.face)];
             for (int j = window.rect.y0; j < window.rect.y1; ++j) {

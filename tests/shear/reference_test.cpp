@@ -100,7 +100,7 @@ TEST(WideView, HasNoSeamBetweenFaces) {
     for (const double azimuth : {45.0, 20.0, 160.0}) {
         const Camera camera =
             view::camera_on({azimuth, 35, 6, {3, 2, -4}}, lattice, Projection::perspective, 120);
-        ASSERT_GE(view::factorise(camera, size, lattice, 1).faces.size(), 3U);
+        ASSERT_GE(view::factorise(camera, size, lattice, {1}).faces.size(), 3U);
         const auto truth = cast_rays(cube, {1, 1, 1}, {}, ramp_to(0.15), camera, size, workers);
         const auto picture = picture_of(volume, lattice, ramp_to(0.15), camera, size, workers);
         for (std::size_t i = 0; i < truth.pixels().size(); ++i) {

@@ -50,8 +50,8 @@ std::vector<NamedView> all_views(const view::Lattice& lattice, std::size_t every
 image::Image<image::RgbaF> picture_of(const shear::BrickVolume& volume, const view::Lattice& lattice,
                                       const view::TransferFunction& tf, const view::Camera& camera,
                                       const view::ImageSize& size, base::Workers& workers,
-                                      double resolution) {
-    const auto factorisation = view::factorise(camera, size, lattice, resolution);
+                                      const view::Sampling& sampling) {
+    const auto factorisation = view::factorise(camera, size, lattice, sampling);
     const auto windows = shear::render(volume, factorisation, tf, workers);
     return image::warp_float(factorisation, windows, camera, size, workers);
 }
@@ -81,7 +81,7 @@ Match match(Scene& scene, const view::Camera& camera, const view::ImageSize& siz
         in_8_bits(cast_rays(scene.cube, scene.spacing, scene.mapping, scene.tf, camera, size, workers));
     const auto at = [&](view::Quality quality) {
         return psnr(in_8_bits(picture_of(volume, scene.lattice(), scene.tf, camera, size, workers,
-                                         view::resolution(quality))),
+                                         view::sampling(quality))),
                     truth);
     };
     return {at(view::Quality::normal), at(view::Quality::high)};

@@ -27,7 +27,7 @@ std::vector<NamedView> views_from(const view::Lattice& lattice, double azimuth, 
 image::Image<image::RgbaF> picture_of(const shear::BrickVolume& volume, const view::Lattice& lattice,
                                       const view::TransferFunction& tf, const view::Camera& camera,
                                       const view::ImageSize& size, base::Workers& workers,
-                                      double resolution = 1);
+                                      const view::Sampling& sampling = {});
 
 // As a picture on black is shown.
 image::Image<image::Rgba8> in_8_bits(const image::Image<image::RgbaF>& picture);

@@ -46,7 +46,7 @@ TEST(Factorise, CoversTheWholePicture) {
     const ImageSize size{64, 48};
     int seen = 0;
     for (const Camera& camera : cameras()) {
-        const Factorisation f = factorise(camera, size, lattice, 1);
+        const Factorisation f = factorise(camera, size, lattice, {1});
         ASSERT_TRUE(validate(f).has_value());
         const Rays rays = in_voxel_space(rays_of(camera, size), lattice);
         for (int y = 0; y < size.height; ++y) {
@@ -86,42 +86,42 @@ TEST(Factorise, CoversTheWholePicture) {
 TEST(Factorise, GivesTheResolutionAskedFor) {
     const ImageSize size{300, 200};
     const Camera camera = camera_on({0, 0}, Lattice{{50, 50, 50}});
-    const Factorisation one = factorise(camera, size, Lattice{{50, 50, 50}}, 1);
+    const Factorisation one = factorise(camera, size, Lattice{{50, 50, 50}}, {1});
     ASSERT_EQ(one.faces.size(), 1U);
     // The picture plane is parallel to the slices: a pixel is a pixel.
     EXPECT_NEAR(one.faces[0].pitch.x, 2 * std::tan(15 * M_PI / 180) / 200, 1e-9);
-    const Factorisation fine = factorise(camera, size, Lattice{{50, 50, 50}}, 1.5);
+    const Factorisation fine = factorise(camera, size, Lattice{{50, 50, 50}}, {1.5});
     EXPECT_NEAR(fine.faces[0].pitch.y * 1.5, one.faces[0].pitch.y, 1e-9);
-    EXPECT_EQ(resolution(Quality::draft), 0.5);
-    EXPECT_EQ(resolution(Quality::normal), 1);
-    EXPECT_EQ(resolution(Quality::high), 1.5);
+    EXPECT_EQ(sampling(Quality::draft), (Sampling{0.5, 0}));
+    EXPECT_EQ(sampling(Quality::normal), (Sampling{1, 0}));
+    EXPECT_EQ(sampling(Quality::high), (Sampling{1.5, -1}));
 }
 
 TEST(Factorise, NeverExceedsItsLimits) {
     for (const Camera& camera : cameras()) {
         for (const ImageSize& size : {ImageSize{8192, 4096}, {1, 8192}, {8192, 1}, {1, 1}}) {
-            EXPECT_TRUE(validate(factorise(camera, size, lattice, 1.5)).has_value()) << size.width;
+            EXPECT_TRUE(validate(factorise(camera, size, lattice, {1.5})).has_value()) << size.width;
         }
     }
     const Lattice thin{{2, 100000, 2}, {1e-3, 1e-3, 1e3}};
     for (const double distance : {1e-6, 1.0, 1e9}) {
         EXPECT_TRUE(
-            validate(factorise(camera_on({33, 21, distance}, thin), {512, 512}, thin, 1)).has_value());
+            validate(factorise(camera_on({33, 21, distance}, thin), {512, 512}, thin, {1})).has_value());
     }
 }
 
 TEST(Factorise, LeavesOutFacesThatSeeNothing) {
     Camera away = camera_on({}, lattice);
     away.target = 2.0 * away.eye;
-    EXPECT_TRUE(factorise(away, {64, 64}, lattice, 1).faces.empty());
+    EXPECT_TRUE(factorise(away, {64, 64}, lattice, {1}).faces.empty());
     const Camera inside = camera_on({30, 20, 5}, lattice, Projection::perspective, 170);
-    EXPECT_GE(factorise(inside, {64, 64}, lattice, 1).faces.size(), 5U);
-    EXPECT_EQ(factorise(camera_on({}, lattice, Projection::parallel), {64, 64}, lattice, 1).faces.size(), 1U);
+    EXPECT_GE(factorise(inside, {64, 64}, lattice, {1}).faces.size(), 5U);
+    EXPECT_EQ(factorise(camera_on({}, lattice, Projection::parallel), {64, 64}, lattice, {1}).faces.size(), 1U);
 }
 
 TEST(Step, IsTheDistanceBetweenTwoSlicesAlongTheRay) {
     for (const Camera& camera : cameras()) {
-        const Factorisation f = factorise(camera, {64, 64}, lattice, 1);
+        const Factorisation f = factorise(camera, {64, 64}, lattice, {1});
         for (const Face& face : f.faces) {
             const auto at = [&](double k) {
                 const SliceMap map = f.slice_map(face, k);
@@ -163,7 +163,7 @@ TEST(PixelsBetween, DealsOutEveryPixelOnce) {
 TEST(WindowOf, HoldsEveryPixelThatReachesTheBox) {
     const Box box{{10, 5, 20}, {31, 33, 49}};
     for (const Camera& camera : cameras()) {
-        const Factorisation f = factorise(camera, {64, 48}, lattice, 1);
+        const Factorisation f = factorise(camera, {64, 48}, lattice, {1});
         for (const Face& face : f.faces) {
             const Rect window = window_of(f, face, box);
             const auto w = static_cast<std::size_t>(face.axis);
@@ -196,8 +196,19 @@ TEST(SlicesInFront, StopAtTheEye) {
     EXPECT_EQ(slices_in_front(f, {.axis = 2, .sign = -1}, 0, 72), (SliceRange{0, 72}));
 }
 
+TEST(SlicesInFront, MayLieHalfAVoxelApart) {
+    Factorisation f{.lattice = lattice, .eye = {10.5, 20.25, 1e18}, .slice_exponent = -1};
+    EXPECT_EQ(slices_in_front(f, {.axis = 0, .sign = 1}, 0, 59), (SliceRange{22, 118}));
+    EXPECT_EQ(slices_in_front(f, {.axis = 0, .sign = -1}, 5, 59), (SliceRange{10, 20}));
+    EXPECT_EQ(slices_in_front(f, {.axis = 1, .sign = 1}, 0, 40), (SliceRange{41, 80}));
+    EXPECT_EQ(slices_in_front(f, {.axis = 1, .sign = -1}, 0, 40), (SliceRange{0, 40}));
+    EXPECT_EQ(f.slice_place(41), 20.5);
+    const Face face{.axis = 1, .width = 1, .height = 1, .pitch = {1, 1}};
+    EXPECT_EQ(f.step(face, 0, 0), 0.5 * Factorisation{.lattice = lattice}.step(face, 0, 0));
+}
+
 TEST(ValidateFactorisation, RefusesWhatAPeerMayMakeUp) {
-    const Factorisation good = factorise(camera_on({}, lattice), {64, 64}, lattice, 1);
+    const Factorisation good = factorise(camera_on({}, lattice), {64, 64}, lattice, {1});
     const auto fails = [&](const auto& spoil) {
         Factorisation bad = good;
         spoil(bad);
@@ -209,6 +220,7 @@ TEST(ValidateFactorisation, RefusesWhatAPeerMayMakeUp) {
     EXPECT_TRUE(fails([](Factorisation& f) { f.lattice.n = {1LL << 40, 1LL << 40, 2}; }));
     EXPECT_TRUE(fails([&](Factorisation& f) { f.lattice.spacing.x = nan; }));
     EXPECT_TRUE(fails([&](Factorisation& f) { f.eye.z = nan; }));
+    EXPECT_TRUE(fails([](Factorisation& f) { f.slice_exponent = 1; }));
     EXPECT_TRUE(fails([](Factorisation& f) { f.faces.resize(7, f.faces[0]); }));
     EXPECT_TRUE(fails([](Factorisation& f) { f.faces[0].axis = 3; }));
     EXPECT_TRUE(fails([](Factorisation& f) { f.faces[0].sign = 0; }));
@@ -255,7 +267,7 @@ TEST(VisibilityOrder, IsFrontToBackAlongEveryRay) {
     std::uniform_real_distribution<double> unit(0, 1);
     int pairs = 0;
     for (const Camera& camera : cameras()) {
-        Factorisation f = factorise(camera, {32, 32}, lattice, 1);
+        Factorisation f = factorise(camera, {32, 32}, lattice, {1});
         std::vector<Box> boxes;
         cut(random, volume::whole(lattice.n), 5, boxes);
         std::shuffle(boxes.begin(), boxes.end(), random);

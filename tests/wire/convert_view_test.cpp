@@ -157,7 +157,7 @@ TEST(FactorisationConversion, WhatTheHeadMakesIsTaken) {
              {view::Projection::perspective, view::Projection::parallel}) {
             const view::Camera camera =
                 view::camera_on({.azimuth = azimuth, .elevation = 20}, lattice, projection, 90);
-            const view::Factorisation f = view::factorise(camera, {64, 64}, lattice, 1);
+            const view::Factorisation f = view::factorise(camera, {64, 64}, lattice, {1});
             EXPECT_EQ(factorisation_from(to_wire(f)).value().faces, f.faces);
         }
     }
@@ -176,6 +176,9 @@ TEST(FactorisationConversion, Hostile) {
         refused("origin_v", [&](pb::Factorisation& f) { f.mutable_faces(0)->set_origin_v(value); });
         refused("pitch_u", [&](pb::Factorisation& f) { f.mutable_faces(1)->set_pitch_u(value); });
         refused("pitch_v", [&](pb::Factorisation& f) { f.mutable_faces(1)->set_pitch_v(value); });
+    }
+    for (const int exponent : {-2, 1, 1000}) {
+        refused("slice_exponent", [&](pb::Factorisation& f) { f.set_slice_exponent(exponent); });
     }
     refused("projection", [](pb::Factorisation& f) { f.set_projection(static_cast<pb::Projection>(7)); });
     refused("lattice", [](pb::Factorisation& f) { f.clear_lattice(); });

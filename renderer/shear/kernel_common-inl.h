@@ -1,0 +1,103 @@
+// Per target: what both forms of the kernel share. No include guard of the usual kind: included once for
+// every target.
+#if defined(SHEARWATER_SHEAR_KERNEL_COMMON_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SHEARWATER_SHEAR_KERNEL_COMMON_INL_H
+#undef SHEARWATER_SHEAR_KERNEL_COMMON_INL_H
+#else
+#define SHEARWATER_SHEAR_KERNEL_COMMON_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include "renderer/shear/kernel.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace shearwater::shear::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// 1 - 2^-y for y >= 0, as accurate for a tiny y as for a large one: optical depths add up over a thousand
+// slices. By Taylor's series in y ln 2, of four terms where all are small, else of five.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V opacity_of_halvings(D d, V y) {
+    constexpr float c1 = 6.93147181e-1F, c2 = 2.40226507e-1F, c3 = 5.55041087e-2F, c4 = 9.61812911e-3F,
+                    c5 = 1.33335581e-3F;
+    if (HWY_LIKELY(hn::AllTrue(d, hn::Lt(y, hn::Set(d, 0.25F))))) {
+        V p = hn::NegMulAdd(y, hn::Set(d, c4), hn::Set(d, c3));
+        p = hn::NegMulAdd(y, p, hn::Set(d, c2));
+        p = hn::NegMulAdd(y, p, hn::Set(d, c1));
+        return hn::Mul(y, p);
+    }
+    const hn::RebindToSigned<D> di;
+    y = hn::Min(y, hn::Set(d, 100.0F));
+    const auto whole = hn::NearestInt(y);
+    const V f = hn::Sub(hn::ConvertTo(d, whole), y);
+    V p = hn::MulAdd(f, hn::Set(d, c5), hn::Set(d, c4));
+    p = hn::MulAdd(f, p, hn::Set(d, c3));
+    p = hn::MulAdd(f, p, hn::Set(d, c2));
+    p = hn::MulAdd(f, p, hn::Set(d, c1));
+    const V scale = hn::BitCast(d, hn::ShiftLeft<23>(hn::Sub(hn::Set(di, 127), whole)));
+    return hn::NegMulAdd(scale, hn::Mul(p, f), hn::Sub(hn::Set(d, 1.0F), scale));
+}
+
+// What a vector of rays has gathered.
+template <class D>
+struct Gathered {
+    hn::Vec<D> r, g, b, a;
+
+    HWY_INLINE Gathered(D d, const Rays& rays, std::ptrdiff_t ray)
+        : r(hn::LoadU(d, rays.r + ray)),
+          g(hn::LoadU(d, rays.g + ray)),
+          b(hn::LoadU(d, rays.b + ray)),
+          a(hn::LoadU(d, rays.a + ray)) {}
+    HWY_INLINE void put_behind(hn::Vec<D> alpha, hn::Vec<D> red, hn::Vec<D> green, hn::Vec<D> blue) {
+        const auto weight = hn::NegMulAdd(a, alpha, alpha);
+        r = hn::MulAdd(weight, red, r);
+        g = hn::MulAdd(weight, green, g);
+        b = hn::MulAdd(weight, blue, b);
+        a = hn::Add(a, weight);
+    }
+    HWY_INLINE void store(D d, const Rays& rays, std::ptrdiff_t ray) const {
+        hn::StoreU(r, d, rays.r + ray);
+        hn::StoreU(g, d, rays.g + ray);
+        hn::StoreU(b, d, rays.b + ray);
+        hn::StoreU(a, d, rays.a + ray);
+    }
+};
+
+// Where the samples of a row of pixels, or of a column, lie: from voxel `cell` of the brick on by `step`
+// cell_steps. Where they lie on the last voxels of all, those behind have no weight.
+struct CellPlace {
+    std::int64_t cell;
+    int step;
+};
+HWY_INLINE CellPlace place_of(double at, std::int64_t first_voxel) {
+    const auto steps = static_cast<std::int64_t>(at * cell_steps + 0.5);
+    return {steps / cell_steps - first_voxel, static_cast<int>(steps % cell_steps)};
+}
+
+// Pixels are counted as the cube's slices count them.
+template <class Code>
+HWY_INLINE double along_row(const Slice<Code>& slice, int i) {
+    return slice.fast_offset + slice.fast_scale * i;
+}
+template <class Code>
+HWY_INLINE CellPlace row_place(const Slab<Code>& slab, const Slice<Code>& slice, int j) {
+    return place_of(slice.slow_offset + slice.slow_scale * (j + slab.slow_pixel), slab.slow_first);
+}
+
+// The pixels that some slice of a slab wants.
+template <class Code>
+HWY_INLINE view::Rect pixels_of(const Slab<Code>& slab) {
+    view::Rect pixels = slab.slices[0].pixels;
+    for (int k = 1; k < slab.count; ++k) {
+        const view::Rect& more = slab.slices[static_cast<std::size_t>(k)].pixels;
+        pixels = {std::min(pixels.x0, more.x0), std::min(pixels.y0, more.y0), std::max(pixels.x1, more.x1),
+                  std::max(pixels.y1, more.y1)};
+    }
+    return pixels;
+}
+
+}  // namespace shearwater::shear::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,176 @@
+// Per target: the kernel for any code, with blanks or without. Rows of voxels are first interpolated across
+// into a row of floats; samples then gather from it, and from the opacity table.
+#if defined(SHEARWATER_SHEAR_KERNEL_GATHER_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SHEARWATER_SHEAR_KERNEL_GATHER_INL_H
+#undef SHEARWATER_SHEAR_KERNEL_GATHER_INL_H
+#else
+#define SHEARWATER_SHEAR_KERNEL_GATHER_INL_H
+#endif
+
+#include "renderer/shear/kernel_common-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace shearwater::shear::HWY_NAMESPACE {
+
+// Voxels or pixels, with room for a vector more.
+inline constexpr int room_for_a_vector = 16;
+inline constexpr int longest_row = widest_tile + room_for_a_vector;
+
+// The same for all rows of pixels of a slice: which voxels of the row a pixel lies between.
+struct Columns {
+    alignas(64) std::array<std::int32_t, longest_row> cells;
+    alignas(64) std::array<float, longest_row> fractions;
+    int first_voxel, voxels;  // that are needed of a row
+};
+
+template <class Code>
+HWY_INLINE void lay_columns(const Slab<Code>& slab, const Slice<Code>& slice, Columns& columns) {
+    const int i0 = slice.pixels.x0, i1 = slice.pixels.x1;
+    const auto place = [&](int i) {
+        return place_of(along_row(slice, i + slab.fast_pixel), slab.fast_first);
+    };
+    const std::int64_t least = std::min(place(i0).cell, place(i1 - 1).cell);
+    const std::int64_t greatest = std::max(place(i0).cell, place(i1 - 1).cell);
+    columns.first_voxel = static_cast<int>(least);
+    columns.voxels = static_cast<int>(greatest - least) + 2;
+    for (int i = i0; i < i1; ++i) {
+        const CellPlace at = place(i);
+        columns.cells[static_cast<std::size_t>(i - i0)] = static_cast<std::int32_t>(at.cell - least);
+        columns.fractions[static_cast<std::size_t>(i - i0)] = static_cast<float>(at.step) / cell_steps;
+    }
+    // What a vector reaches beyond them lies nowhere in particular.
+    std::fill_n(&columns.cells[static_cast<std::size_t>(i1 - i0)], room_for_a_vector, 0);
+    std::fill_n(&columns.fractions[static_cast<std::size_t>(i1 - i0)], room_for_a_vector, 0.0F);
+}
+
+template <class D, class Code>
+HWY_INLINE hn::Vec<D> load_codes(D d, const Code* codes) {
+    const hn::RebindToSigned<D> di;
+    return hn::ConvertTo(d, hn::PromoteTo(di, hn::LoadU(hn::Rebind<Code, D>(), codes)));
+}
+
+// A row of voxels interpolated across the slow axis, and how much of each is valid.
+struct Row {
+    alignas(64) std::array<float, longest_row> codes;
+    alignas(64) std::array<float, longest_row> valid;
+};
+
+template <bool blanks, class Code>
+HWY_INLINE void interpolate_across(const Code* plane, std::ptrdiff_t stride, float fraction, float weight,
+                                   int voxels, bool add, Row& row) {
+    const hn::ScalableTag<float> d;
+    const auto weight1 = hn::Set(d, weight * fraction);
+    const auto weight0 = hn::Set(d, weight * (1 - fraction));
+    const auto zero = hn::Zero(d);
+    for (int n = 0; n < voxels; n += static_cast<int>(hn::Lanes(d))) {
+        const auto at = static_cast<std::size_t>(n);
+        const auto code0 = load_codes(d, plane + n);
+        const auto code1 = load_codes(d, plane + stride + n);
+        const auto before = add ? hn::Load(d, &row.codes[at]) : zero;
+        hn::Store(hn::MulAdd(code1, weight1, hn::MulAdd(code0, weight0, before)), d, &row.codes[at]);
+        if constexpr (blanks) {
+            const auto valid0 = hn::IfThenElseZero(hn::Ne(code0, zero), weight0);
+            const auto valid1 = hn::IfThenElseZero(hn::Ne(code1, zero), weight1);
+            const auto valid_before = add ? hn::Load(d, &row.valid[at]) : zero;
+            hn::Store(hn::Add(valid_before, hn::Add(valid0, valid1)), d, &row.valid[at]);
+        }
+    }
+}
+
+template <bool blanks, class Code>
+HWY_INLINE void interpolate_row(const Slab<Code>& slab, const Slice<Code>& slice, int j,
+                                const Columns& columns, Row& row) {
+    const CellPlace place = row_place(slab, slice, j);
+    const auto fraction = static_cast<float>(place.step) / cell_steps;
+    const float weight = slice.next == nullptr ? 1 : 0.5F;
+    const std::ptrdiff_t from = place.cell * slab.stride + columns.first_voxel;
+    interpolate_across<blanks>(slice.voxels + from, slab.stride, fraction, weight, columns.voxels, false,
+                               row);
+    if (slice.next != nullptr) {
+        interpolate_across<blanks>(slice.next + from, slab.stride, fraction, weight, columns.voxels, true,
+                                   row);
+    }
+}
+
+// One row of pixels of one slice. a_before: of the row's rays, from pixel 0 on, before the slab.
+template <bool blanks, class Code>
+HWY_INLINE std::uint64_t composite_row(const Slab<Code>& slab, const Slice<Code>& slice, int j,
+                                       const Columns& columns, const OpacityTable& table,
+                                       const float* a_before, const Rays& rays) {
+    const hn::ScalableTag<float> d;
+    const hn::RebindToSigned<decltype(d)> di;
+    const float* const nodes = &table.nodes()->r;
+    Row row;
+    interpolate_row<blanks>(slab, slice, j, columns, row);
+    std::uint64_t taken = 0;
+    const int width = slice.pixels.width();
+    for (int n = 0; n < width; n += static_cast<int>(hn::Lanes(d))) {
+        const auto at = static_cast<std::size_t>(n);
+        auto live = hn::And(hn::FirstN(d, static_cast<std::size_t>(width - n)),
+                            hn::Lt(hn::LoadU(d, a_before + slice.pixels.x0 + n), hn::Set(d, opaque_enough)));
+        if (hn::AllFalse(d, live)) {
+            continue;
+        }
+        taken += hn::CountTrue(d, live);
+        const auto cell = hn::Load(di, &columns.cells[at]);
+        const auto fraction = hn::Load(d, &columns.fractions[at]);
+        const auto along = [&](const float* values) HWY_ATTR {
+            const auto left = hn::GatherIndex(d, values, cell);
+            const auto right = hn::GatherIndex(d, values + 1, cell);
+            return hn::MulAdd(fraction, hn::Sub(right, left), left);
+        };
+        auto code = along(row.codes.data());
+        if constexpr (blanks) {
+            const auto valid = along(row.valid.data());
+            const auto enough = hn::Ge(valid, hn::Set(d, least_valid));
+            live = hn::And(live, enough);
+            code = hn::IfThenElseZero(enough, hn::Div(code, valid));
+        }
+        const auto place = hn::Mul(code, hn::Set(d, table.nodes_per_code()));
+        const auto below = hn::Floor(place);
+        const auto beyond = hn::Sub(place, below);
+        const auto node = hn::ShiftLeft<2>(hn::ConvertTo(di, below));
+        const auto left = hn::GatherIndex(d, nodes + 3, node);
+        const auto right = hn::GatherIndex(d, nodes + 7, node);
+        const std::ptrdiff_t ray = j * rays.stride + slice.pixels.x0 + n;
+        const auto length = hn::IfThenElseZero(live, hn::LoadU(d, slice.lengths + ray));
+        const auto depth = hn::Mul(hn::MulAdd(beyond, hn::Sub(right, left), left), length);
+        if (hn::AllFalse(d, hn::Gt(depth, hn::Zero(d)))) {
+            continue;
+        }
+        const auto upper = hn::RebindMask(di, hn::Ge(beyond, hn::Set(d, 0.5F)));
+        const auto nearest = hn::Add(node, hn::IfThenElseZero(upper, hn::Set(di, 4)));
+        Gathered<decltype(d)> gathered(d, rays, ray);
+        gathered.put_behind(opacity_of_halvings(d, depth), hn::GatherIndex(d, nodes, nearest),
+                            hn::GatherIndex(d, nodes + 1, nearest), hn::GatherIndex(d, nodes + 2, nearest));
+        gathered.store(d, rays, ray);
+    }
+    return taken;
+}
+
+template <bool blanks, class Code>
+std::uint64_t composite_gathering(const Slab<Code>& slab, const OpacityTable& table, const Rays& rays) {
+    std::array<Columns, Slab<Code>::max_slices> columns;
+    for (int k = 0; k < slab.count; ++k) {
+        lay_columns(slab, slab.slices[static_cast<std::size_t>(k)], columns[static_cast<std::size_t>(k)]);
+    }
+    const view::Rect pixels = pixels_of(slab);
+    std::array<float, longest_row> a_before;
+    std::uint64_t taken = 0;
+    for (int j = pixels.y0; j < pixels.y1; ++j) {
+        std::copy_n(rays.a + j * rays.stride, a_before.size(), a_before.begin());
+        for (int k = 0; k < slab.count; ++k) {
+            const Slice<Code>& slice = slab.slices[static_cast<std::size_t>(k)];
+            if (slice.pixels.y0 <= j && j < slice.pixels.y1) {
+                taken += composite_row<blanks>(slab, slice, j, columns[static_cast<std::size_t>(k)], table,
+                                               a_before.data(), rays);
+            }
+        }
+    }
+    return taken;
+}
+
+}  // namespace shearwater::shear::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

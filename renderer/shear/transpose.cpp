@@ -1,0 +1,109 @@
+#include "renderer/shear/transpose.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "renderer/shear/transpose.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace shearwater::shear::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr int side = 16;
+
+#if HWY_TARGET == HWY_SCALAR
+HWY_INLINE void turn_block(const std::uint8_t* from, std::ptrdiff_t stride, std::uint8_t* to,
+                           std::ptrdiff_t to_stride) {
+    for (int i = 0; i < side; ++i) {
+        for (int j = 0; j < side; ++j) {
+            to[j * to_stride + i] = from[i * stride + j];
+        }
+    }
+}
+#else
+// 16 rows of 16 bytes become 16 columns. Four times rows n and n + 8 are interleaved into 2 n and 2 n + 1.
+HWY_INLINE void turn_block(const std::uint8_t* from, std::ptrdiff_t stride, std::uint8_t* to,
+                           std::ptrdiff_t to_stride) {
+    const hn::FixedTag<std::uint8_t, side> d;
+    using V = hn::Vec<decltype(d)>;
+    V a[side], b[side];
+    for (int i = 0; i < side; ++i) {
+        a[i] = hn::LoadU(d, from + i * stride);
+    }
+    const auto interleave = [&](const V* in, V* out) HWY_ATTR {
+        for (int i = 0; i < side / 2; ++i) {
+            out[2 * i] = hn::InterleaveLower(in[i], in[i + side / 2]);
+            out[2 * i + 1] = hn::InterleaveUpper(d, in[i], in[i + side / 2]);
+        }
+    };
+    interleave(a, b);
+    interleave(b, a);
+    interleave(a, b);
+    interleave(b, a);
+    for (int i = 0; i < side; ++i) {
+        hn::StoreU(a[i], d, to + i * to_stride);
+    }
+}
+#endif
+
+void turn_8(const Stack<std::uint8_t>& from, std::uint8_t* to, std::ptrdiff_t column_stride,
+            std::ptrdiff_t plane_stride) {
+    // A few columns over are moved one by one, as are rows.
+    constexpr int few = 4;
+    const int block_columns = (from.columns + side - 1 - few) / side * side;
+    const int block_rows = (from.rows + side - 1 - few) / side * side;
+    for (int plane = 0; plane < from.planes; ++plane) {
+        const std::uint8_t* const matrix = from.first + plane * from.plane_stride;
+        std::uint8_t* const turned = to + plane * plane_stride;
+        const auto move = [&](int column, int row) HWY_ATTR {
+            turned[column * column_stride + row] = matrix[row * from.row_stride + column];
+        };
+        for (int row = 0; row < block_rows; row += side) {
+            for (int column = 0; column < block_columns; column += side) {
+                turn_block(matrix + row * from.row_stride + column, from.row_stride,
+                           turned + column * column_stride + row, column_stride);
+            }
+        }
+        for (int row = block_rows; row < from.rows; ++row) {
+            for (int column = 0; column < from.columns; ++column) {
+                move(column, row);
+            }
+        }
+        for (int column = block_columns; column < from.columns; ++column) {
+            for (int row = 0; row < from.rows; ++row) {
+                move(column, row);
+            }
+        }
+    }
+}
+
+}  // namespace shearwater::shear::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace shearwater::shear {
+
+HWY_EXPORT(turn_8);
+
+template <>
+void turn(const Stack<std::uint8_t>& from, std::uint8_t* to, std::ptrdiff_t column_stride,
+          std::ptrdiff_t plane_stride) {
+    HWY_DYNAMIC_DISPATCH(turn_8)(from, to, column_stride, plane_stride);
+}
+
+template <>
+void turn(const Stack<std::uint16_t>& from, std::uint16_t* to, std::ptrdiff_t column_stride,
+          std::ptrdiff_t plane_stride) {
+    for (int plane = 0; plane < from.planes; ++plane) {
+        for (int row = 0; row < from.rows; ++row) {
+            const std::uint16_t* const codes = from.first + plane * from.plane_stride + row * from.row_stride;
+            std::uint16_t* const turned = to + plane * plane_stride + row;
+            for (int column = 0; column < from.columns; ++column) {
+                turned[column * column_stride] = codes[column];
+            }
+        }
+    }
+}
+
+}  // namespace shearwater::shear
+#endif
