@@ -55,7 +55,9 @@ struct Rays {
     std::ptrdiff_t stride;
 };
 inline constexpr int ray_padding = 32;
-inline constexpr int widest_tile = 64;  // pixels along the fast axis
+// A tile's pixels along the fast and along the slow axis.
+inline constexpr int widest_tile = 64;
+inline constexpr int tallest_tile = 32;
 
 // A ray with less light left than this is done: well below half a level of 255.
 inline constexpr float opaque_enough = 1 - 1.0F / 4096;

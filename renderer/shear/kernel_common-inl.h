@@ -16,25 +16,29 @@ namespace shearwater::shear::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // 1 - 2^-y for y >= 0, as accurate for a tiny y as for a large one: optical depths add up over a thousand
-// slices. By Taylor's series in y ln 2, of four terms where all are small, else of five.
+// slices. By Taylor's series in y ln 2; four terms do for y < few_halvings.
+inline constexpr float few_halvings = 0.25F;
+inline constexpr float taylor[] = {6.93147181e-1F, 2.40226507e-1F, 5.55041087e-2F, 9.61812911e-3F,
+                                   1.33335581e-3F};
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V opacity_of_few_halvings(D d, V y) {
+    V p = hn::NegMulAdd(y, hn::Set(d, taylor[3]), hn::Set(d, taylor[2]));
+    p = hn::NegMulAdd(y, p, hn::Set(d, taylor[1]));
+    p = hn::NegMulAdd(y, p, hn::Set(d, taylor[0]));
+    return hn::Mul(y, p);
+}
+
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V opacity_of_halvings(D d, V y) {
-    constexpr float c1 = 6.93147181e-1F, c2 = 2.40226507e-1F, c3 = 5.55041087e-2F, c4 = 9.61812911e-3F,
-                    c5 = 1.33335581e-3F;
-    if (HWY_LIKELY(hn::AllTrue(d, hn::Lt(y, hn::Set(d, 0.25F))))) {
-        V p = hn::NegMulAdd(y, hn::Set(d, c4), hn::Set(d, c3));
-        p = hn::NegMulAdd(y, p, hn::Set(d, c2));
-        p = hn::NegMulAdd(y, p, hn::Set(d, c1));
-        return hn::Mul(y, p);
-    }
     const hn::RebindToSigned<D> di;
     y = hn::Min(y, hn::Set(d, 100.0F));
     const auto whole = hn::NearestInt(y);
     const V f = hn::Sub(hn::ConvertTo(d, whole), y);
-    V p = hn::MulAdd(f, hn::Set(d, c5), hn::Set(d, c4));
-    p = hn::MulAdd(f, p, hn::Set(d, c3));
-    p = hn::MulAdd(f, p, hn::Set(d, c2));
-    p = hn::MulAdd(f, p, hn::Set(d, c1));
+    V p = hn::MulAdd(f, hn::Set(d, taylor[4]), hn::Set(d, taylor[3]));
+    p = hn::MulAdd(f, p, hn::Set(d, taylor[2]));
+    p = hn::MulAdd(f, p, hn::Set(d, taylor[1]));
+    p = hn::MulAdd(f, p, hn::Set(d, taylor[0]));
     const V scale = hn::BitCast(d, hn::ShiftLeft<23>(hn::Sub(hn::Set(di, 127), whole)));
     return hn::NegMulAdd(scale, hn::Mul(p, f), hn::Sub(hn::Set(d, 1.0F), scale));
 }

@@ -104,13 +104,44 @@ HWY_INLINE Permutation permutation_of(const Slab<std::uint8_t>& slab, const Slic
     return permutation;
 }
 
+// For the rows of a slab: where they lie among a slice's rows of voxels.
+struct RowPlaces {
+    std::array<std::int32_t, tallest_tile + 8>
+        offsets;  // of the row before, in voxels from the slice's first
+    std::array<std::uint16_t, tallest_tile + 8> weights;  // of it and of the row behind, a byte each
+};
+
+HWY_INLINE void lay_rows(const Slab<std::uint8_t>& slab, const Slice<std::uint8_t>& slice,
+                         RowPlaces& places) {
+    const __m512d first = _mm512_set1_pd(static_cast<double>(slab.slow_first));
+    const auto stride = _mm256_set1_epi32(static_cast<int>(slab.stride));
+    for (int j = slice.pixels.y0; j < slice.pixels.y1; j += 8) {
+        const __m512d pixels =
+            _mm512_add_pd(_mm512_set1_pd(slab.slow_pixel + j), _mm512_setr_pd(0, 1, 2, 3, 4, 5, 6, 7));
+        const __m512d at = _mm512_add_pd(_mm512_mul_pd(pixels, _mm512_set1_pd(slice.slow_scale)),
+                                         _mm512_set1_pd(slice.slow_offset));
+        // As place_of, with what a float cannot hold exactly left out before.
+        const __m256i steps =
+            _mm256_sub_epi32(_mm512_cvttpd_epi32(_mm512_add_pd(_mm512_mul_pd(at, _mm512_set1_pd(cell_steps)),
+                                                               _mm512_set1_pd(0.5))),
+                             _mm512_cvttpd_epi32(_mm512_mul_pd(first, _mm512_set1_pd(cell_steps))));
+        const __m256i cell = _mm256_srli_epi32(_mm256_mullo_epi32(steps, _mm256_set1_epi32(33027)), 22);
+        const __m256i step = _mm256_sub_epi32(steps, _mm256_mullo_epi32(cell, _mm256_set1_epi32(cell_steps)));
+        const __m256i weights = _mm256_or_si256(_mm256_sub_epi32(_mm256_set1_epi32(cell_steps), step),
+                                                _mm256_slli_epi32(step, 8));
+        const auto n = static_cast<std::size_t>(j);
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(&places.offsets[n]), _mm256_mullo_epi32(cell, stride));
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(&places.weights[n]), _mm256_cvtepi32_epi16(weights));
+    }
+}
+
 // Codes in cell_steps at the pixels of one row.
 HWY_INLINE __m512i codes_along(const Slab<std::uint8_t>& slab, const Slice<std::uint8_t>& slice, int j,
-                               const Permutation& permutation) {
-    const CellPlace place = row_place(slab, slice, j);
+                               const RowPlaces& places, const Permutation& permutation) {
+    const auto row = static_cast<std::size_t>(j);
+    const __m512i weights = _mm512_set1_epi16(static_cast<short>(places.weights[row]));
+    const std::ptrdiff_t from = places.offsets[row] + permutation.first;
     const std::ptrdiff_t stride = slab.stride;
-    const __m512i weights = _mm512_set1_epi16(static_cast<short>(cell_steps - place.step + 256 * place.step));
-    const std::ptrdiff_t from = place.cell * stride + permutation.first;
     __m512i low, high;
     const auto across = [&](const std::uint8_t* voxels) HWY_ATTR {
         const __m512i row0 = _mm512_loadu_si512(voxels + from);
@@ -225,29 +256,26 @@ struct Sixteen {
     }
 };
 
-HWY_INLINE __m512 opacities(__m512 depth) {
-    return opacity_of_halvings(hn::Full512<float>(), hn::Vec512<float>{depth}).raw;
-}
+// What a row of a chunk needs on its way through the slices, two by two. Each of the three steps below runs
+// over all pairs before the next begins, so that the processor has independent work at hand.
+struct Row32 {
+    static constexpr std::size_t max_pairs = Slab<std::uint8_t>::max_slices / 2;
 
-// The rays of a chunk, and the lengths of a slice on them.
-struct Chunk {
-    Sixteen low, high;
-};
-struct Lengths {
-    __m512 low, high;
-
-    Lengths(const float* lengths, std::uint32_t wanted)
-        : low(_mm512_maskz_loadu_ps(static_cast<__mmask16>(wanted), lengths)),
-          high(_mm512_maskz_loadu_ps(static_cast<__mmask16>(wanted >> 16), lengths + 16)) {}
+    struct Pair {
+        __m512i codes0, codes1;           // of the nearer and of the other slice
+        __m512 low0, low1, high0, high1;  // lengths, then opacities
+        __m512i nearest;                  // nodes
+        bool any;                         // of them has opacity
+    };
+    std::array<Pair, max_pairs> pairs;
 };
 
-// The samples of a chunk on two slices, the nearer first. Rays that want none have no length.
+// Extinctions times lengths, and what they make opaque.
 template <bool between_nodes>
-HWY_INLINE void composite_pair(__m512i codes0, __m512i codes1, const OpacityTable::Bytes& tables,
-                               const Lengths& lengths0, const Lengths& lengths1, Chunk& chunk) {
-    const __m512i nearest = side_by_side(codes_with<0>(codes0), codes_with<0>(codes1));
-    const __mmask64 nearest_upper = _mm512_movepi8_mask(nearest);
-    __m512 low0, low1, high0, high1;  // extinctions, then optical depths
+HWY_INLINE void classify_pair(const OpacityTable::Bytes& tables, Row32::Pair& pair) {
+    __m512i codes0 = pair.codes0, codes1 = pair.codes1;
+    pair.nearest = side_by_side(codes_with<0>(codes0), codes_with<0>(codes1));
+    __m512 low0, low1, high0, high1;
     if constexpr (between_nodes) {
         codes0 = codes_with<fraction_bits>(codes0);
         codes1 = codes_with<fraction_bits>(codes1);
@@ -265,72 +293,114 @@ HWY_INLINE void composite_pair(__m512i codes0, __m512i codes1, const OpacityTabl
         high0 = mix(fractions<0>(high_codes), extinctions<0>(from.high), extinctions<0>(to.high));
         high1 = mix(fractions<1>(high_codes), extinctions<1>(from.high), extinctions<1>(to.high));
     } else {
-        const Words at = look_up(tables.extinction, nearest, nearest_upper);
+        const Words at = look_up(tables.extinction, pair.nearest, _mm512_movepi8_mask(pair.nearest));
         low0 = extinctions<0>(at.low);
         low1 = extinctions<1>(at.low);
         high0 = extinctions<0>(at.high);
         high1 = extinctions<1>(at.high);
     }
-    low0 = _mm512_mul_ps(low0, lengths0.low);
-    low1 = _mm512_mul_ps(low1, lengths1.low);
-    high0 = _mm512_mul_ps(high0, lengths0.high);
-    high1 = _mm512_mul_ps(high1, lengths1.high);
-    const __m512 any = _mm512_or_ps(_mm512_or_ps(low0, low1), _mm512_or_ps(high0, high1));
-    if (_mm512_test_epi32_mask(_mm512_castps_si512(any), _mm512_castps_si512(any)) == 0) {
-        return;
+    low0 = _mm512_mul_ps(low0, pair.low0);
+    low1 = _mm512_mul_ps(low1, pair.low1);
+    high0 = _mm512_mul_ps(high0, pair.high0);
+    high1 = _mm512_mul_ps(high1, pair.high1);
+    const __m512 deepest = _mm512_max_ps(_mm512_max_ps(low0, low1), _mm512_max_ps(high0, high1));
+    pair.any = _mm512_cmp_ps_mask(deepest, _mm512_setzero_ps(), _CMP_GT_OQ) != 0;
+    const hn::Full512<float> d;
+    const auto opacities = [&](__m512 depth, bool shallow) HWY_ATTR {
+        const hn::Vec512<float> y{depth};
+        return (shallow ? opacity_of_few_halvings(d, y) : opacity_of_halvings(d, y)).raw;
+    };
+    const bool shallow = _mm512_cmp_ps_mask(deepest, _mm512_set1_ps(few_halvings), _CMP_GE_OQ) == 0;
+    if (HWY_LIKELY(shallow)) {
+        pair.low0 = opacities(low0, true);
+        pair.low1 = opacities(low1, true);
+        pair.high0 = opacities(high0, true);
+        pair.high1 = opacities(high1, true);
+    } else {
+        pair.low0 = opacities(low0, false);
+        pair.low1 = opacities(low1, false);
+        pair.high0 = opacities(high0, false);
+        pair.high1 = opacities(high1, false);
     }
-    const Words r = look_up(tables.r, nearest, nearest_upper);
-    const Words g = look_up(tables.g, nearest, nearest_upper);
-    const Words b = look_up(tables.b, nearest, nearest_upper);
-    const __m512i low_gain0 = chunk.low.gain(opacities(low0));
-    const __m512i low_gain1 = chunk.low.gain(opacities(low1));
-    chunk.low.add_colours(low_gain0, low_gain1, r.low, g.low, b.low);
-    const __m512i high_gain0 = chunk.high.gain(opacities(high0));
-    const __m512i high_gain1 = chunk.high.gain(opacities(high1));
-    chunk.high.add_colours(high_gain0, high_gain1, r.high, g.high, b.high);
 }
+
+HWY_INLINE void composite_pair(const OpacityTable::Bytes& tables, const Row32::Pair& pair, Sixteen& low,
+                               Sixteen& high) {
+    const __mmask64 upper = _mm512_movepi8_mask(pair.nearest);
+    const Words r = look_up(tables.r, pair.nearest, upper);
+    const Words g = look_up(tables.g, pair.nearest, upper);
+    const Words b = look_up(tables.b, pair.nearest, upper);
+    const __m512i low_gain0 = low.gain(pair.low0);
+    const __m512i low_gain1 = low.gain(pair.low1);
+    low.add_colours(low_gain0, low_gain1, r.low, g.low, b.low);
+    const __m512i high_gain0 = high.gain(pair.high0);
+    const __m512i high_gain1 = high.gain(pair.high1);
+    high.add_colours(high_gain0, high_gain1, r.high, g.high, b.high);
+}
+
+// What does not change from row to row of a chunk.
+struct Prepared {
+    std::array<Permutation, Slab<std::uint8_t>::max_slices> permutations;
+    std::array<RowPlaces, Slab<std::uint8_t>::max_slices> rows;
+};
 
 // One row of a chunk on all slices.
 template <bool between_nodes>
-HWY_INLINE std::uint64_t composite_row_of_chunk(const Slab<std::uint8_t>& slab,
-                                                const Permutation* permutations, const OpacityTable& table,
-                                                const Rays& rays, int i, int j) {
+HWY_INLINE std::uint64_t composite_row_of_chunk(const Slab<std::uint8_t>& slab, const Prepared& prepared,
+                                                const OpacityTable& table, const Rays& rays, int i, int j) {
     const std::ptrdiff_t ray = j * rays.stride + i;
-    Chunk chunk;
-    chunk.low.begin(rays.a + ray);
-    chunk.high.begin(rays.a + ray + 16);
+    Sixteen low, high;
+    low.begin(rays.a + ray);
+    high.begin(rays.a + ray + 16);
     const __m512 done = _mm512_set1_ps(opaque_enough);
-    const std::uint32_t live = _mm512_cmp_ps_mask(chunk.low.a, done, _CMP_LT_OQ) |
-                               static_cast<std::uint32_t>(_mm512_cmp_ps_mask(chunk.high.a, done, _CMP_LT_OQ))
-                                   << 16;
+    const std::uint32_t live = _mm512_cmp_ps_mask(low.a, done, _CMP_LT_OQ) |
+                               static_cast<std::uint32_t>(_mm512_cmp_ps_mask(high.a, done, _CMP_LT_OQ)) << 16;
     if (live == 0) {
         return 0;
     }
+    Row32 row;
     std::uint64_t taken = 0;
-    const auto wanted = [&](int k) HWY_ATTR {
-        const view::Rect& pixels = slab.slices[static_cast<std::size_t>(k)].pixels;
-        return pixels.y0 <= j && j < pixels.y1 ? permutations[k].wanted & live : 0U;
-    };
-    for (int k = 0; k < slab.count; k += 2) {
-        const int next = std::min(k + 1, slab.count - 1);
-        const std::uint32_t wanted0 = wanted(k);
-        const std::uint32_t wanted1 = next == k ? 0 : wanted(next);
-        if ((wanted0 | wanted1) == 0) {
+    std::size_t count = 0;  // of slices that want some of the row's pixels
+    for (std::size_t k = 0; k < static_cast<std::size_t>(slab.count); ++k) {
+        const Slice<std::uint8_t>& slice = slab.slices[k];
+        const std::uint32_t wanted = prepared.permutations[k].wanted & live;
+        if (j < slice.pixels.y0 || j >= slice.pixels.y1 || wanted == 0) {
             continue;
         }
-        taken += static_cast<std::uint64_t>(std::popcount(wanted0) + std::popcount(wanted1));
-        // For a slice that wants none of the row's pixels the other stands in.
-        const int k0 = wanted0 != 0 ? k : next;
-        const int k1 = wanted1 != 0 ? next : k;
-        const Slice<std::uint8_t>& slice0 = slab.slices[static_cast<std::size_t>(k0)];
-        const Slice<std::uint8_t>& slice1 = slab.slices[static_cast<std::size_t>(k1)];
-        composite_pair<between_nodes>(codes_along(slab, slice0, j, permutations[k0]),
-                                      codes_along(slab, slice1, j, permutations[k1]), table.bytes(),
-                                      Lengths(slice0.lengths + ray, wanted0),
-                                      Lengths(slice1.lengths + ray, wanted1), chunk);
+        taken += static_cast<std::uint64_t>(std::popcount(wanted));
+        Row32::Pair& pair = row.pairs[count / 2];
+        (count % 2 == 0 ? pair.codes0 : pair.codes1) =
+            codes_along(slab, slice, j, prepared.rows[k], prepared.permutations[k]);
+        (count % 2 == 0 ? pair.low0 : pair.low1) =
+            _mm512_maskz_loadu_ps(static_cast<__mmask16>(wanted), slice.lengths + ray);
+        (count % 2 == 0 ? pair.high0 : pair.high1) =
+            _mm512_maskz_loadu_ps(static_cast<__mmask16>(wanted >> 16), slice.lengths + ray + 16);
+        ++count;
     }
-    chunk.low.end(rays, ray);
-    chunk.high.end(rays, ray + 16);
+    if (count == 0) {
+        return 0;
+    }
+    if (count % 2 == 1) {
+        Row32::Pair& pair = row.pairs[count / 2];
+        pair.codes1 = pair.codes0;
+        pair.low1 = pair.high1 = _mm512_setzero_ps();
+    }
+    const std::size_t pairs = (count + 1) / 2;
+    bool any = false;
+    for (std::size_t p = 0; p < pairs; ++p) {
+        classify_pair<between_nodes>(table.bytes(), row.pairs[p]);
+        any = any || row.pairs[p].any;
+    }
+    if (!any) {
+        return taken;
+    }
+    for (std::size_t p = 0; p < pairs; ++p) {
+        if (row.pairs[p].any) {
+            composite_pair(table.bytes(), row.pairs[p], low, high);
+        }
+    }
+    low.end(rays, ray);
+    high.end(rays, ray + 16);
     return taken;
 }
 
@@ -346,14 +416,16 @@ std::uint64_t composite_permuting(const Slab<std::uint8_t>& slab, const OpacityT
     const double room = (permuted_voxels - 2) / scale;
     const int most = room >= permuted_pixels ? permuted_pixels : std::max(1, static_cast<int>(room));
     std::uint64_t taken = 0;
-    std::array<Permutation, Slab<std::uint8_t>::max_slices> permutations;
+    Prepared prepared;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(slab.count); ++k) {
+        lay_rows(slab, slab.slices[k], prepared.rows[k]);
+    }
     for (int i = pixels.x0; i < pixels.x1; i += most) {
-        for (int k = 0; k < slab.count; ++k) {
-            permutations[static_cast<std::size_t>(k)] =
-                permutation_of(slab, slab.slices[static_cast<std::size_t>(k)], i, most);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(slab.count); ++k) {
+            prepared.permutations[k] = permutation_of(slab, slab.slices[k], i, most);
         }
         for (int j = pixels.y0; j < pixels.y1; ++j) {
-            taken += composite_row_of_chunk<between_nodes>(slab, permutations.data(), table, rays, i, j);
+            taken += composite_row_of_chunk<between_nodes>(slab, prepared, table, rays, i, j);
         }
     }
     return taken;

@@ -24,7 +24,7 @@ template <class Code>
 class Tile {
   public:
     static constexpr int width = widest_tile;
-    static constexpr int height = 32;
+    static constexpr int height = tallest_tile;
 
     Tile(const BrickVolume& volume, std::span<const Code> codes, const Classification& classification,
          const FacePlan& plan, BricksMet& met);
