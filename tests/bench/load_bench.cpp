@@ -162,10 +162,7 @@ void count_values(benchmark::State& state) {
     }
     state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(voxels * sizeof(float)));
 }
-BENCHMARK(count_values)
-    ->ArgsProduct({{-32, 16}, {1, 2}})
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK(count_values)->ArgsProduct({{-32, 16}, {1, 2}})->UseRealTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace shearwater
