@@ -10,9 +10,9 @@ namespace shearwater::fits {
 namespace {
 
 // As much as stays in the processor's caches between reading and decoding.
-constexpr std::int64_t piece_bytes = std::int64_t{256} << 10;
+constexpr std::int64_t piece_bytes = std::int64_t{128} << 10;
 // Bytes between two runs that are read along with them, since asking twice costs more.
-constexpr std::int64_t widest_gap = std::int64_t{2} << 10;
+constexpr std::int64_t widest_gap = std::int64_t{4} << 10;
 
 // The pixels of a box as they lie in the file: runs of pixels at equal steps, in the order of the box. Rows
 // and planes that follow each other at the same step are one run, and what is longer than a piece is cut.
