@@ -114,6 +114,7 @@ base::Status count_at_once(VoxelSource& source, const Slabs& slabs, std::vector<
     const auto caller = std::this_thread::get_id();
     std::atomic<std::int64_t> next{0};
     std::atomic<std::int64_t> done{0};
+    double told = 0;
     std::mutex mutex;
     base::Status outcome;
     workers.for_each(static_cast<std::int64_t>(parts.size()), [&](std::int64_t number) {
@@ -130,11 +131,18 @@ base::Status count_at_once(VoxelSource& source, const Slabs& slabs, std::vector<
             parts[static_cast<std::size_t>(number)].add(part);
             const std::int64_t ready = ++done;
             if (progress && std::this_thread::get_id() == caller) {
-                progress(static_cast<double>(ready) / static_cast<double>(slabs.count));
+                told = static_cast<double>(ready) / static_cast<double>(slabs.count);
+                progress(told);
             }
         }
     });
-    return !outcome || done == slabs.count ? outcome : cancelled(slabs.box);
+    if (outcome && done < slabs.count) {
+        return cancelled(slabs.box);
+    }
+    if (outcome && progress && told < 1) {
+        progress(1);
+    }
+    return outcome;
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <fstream>
 #include <map>
 #include <random>
-#include <thread>
 
 #include "common/base/check.h"
 #include "common/fits/cube.h"
@@ -139,6 +138,29 @@ void codes(benchmark::State& state) {
 }
 BENCHMARK(codes<std::uint8_t>)->DenseRange(0, 3);
 BENCHMARK(codes<std::uint16_t>)->DenseRange(0, 3);
+
+// From the file to codes, as much at a time as stays in the caches.
+void read_to_codes(benchmark::State& state) {
+    fits::Cube cube = cube_of(static_cast<int>(state.range(0)));
+    base::Workers workers(static_cast<int>(state.range(1)));
+    const volume::Quantiser quantiser({.lo = 0, .hi = 1e-3});
+    std::vector<std::uint8_t> out(voxels);
+    for (auto _ : state) {
+        workers.for_each(n[2], [&](std::int64_t z) {
+            constexpr std::size_t plane = voxels / std::size_t{n[2]};
+            std::vector<float> values(plane);
+            const Box box{{0, 0, z}, {n[0] - 1, n[1] - 1, z}};
+            base::check(cube.read(box, values).has_value(), "the plane can be read");
+            quantiser.codes(values, std::span(out).subspan(static_cast<std::size_t>(z) * plane, plane));
+        });
+    }
+    state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(voxels * sizeof(float)));
+}
+BENCHMARK(read_to_codes)
+    ->ArgsProduct({{-32, 16}, {1, 2}})
+    ->UseRealTime()
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
 
 void histogram_add(benchmark::State& state) {
     std::vector<float> values = sky(1 << 18);
