@@ -4,6 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include <array>
+#include <atomic>
 #include <fstream>
 #include <map>
 #include <random>
@@ -144,14 +145,17 @@ void read_to_codes(benchmark::State& state) {
     fits::Cube cube = cube_of(static_cast<int>(state.range(0)));
     base::Workers workers(static_cast<int>(state.range(1)));
     const volume::Quantiser quantiser({.lo = 0, .hi = 1e-3});
+    constexpr std::size_t plane = voxels / std::size_t{n[2]};
     std::vector<std::uint8_t> out(voxels);
     for (auto _ : state) {
-        workers.for_each(n[2], [&](std::int64_t z) {
-            constexpr std::size_t plane = voxels / std::size_t{n[2]};
+        std::atomic<std::int64_t> next{0};
+        workers.for_each(workers.threads(), [&](std::int64_t) {
             std::vector<float> values(plane);
-            const Box box{{0, 0, z}, {n[0] - 1, n[1] - 1, z}};
-            base::check(cube.read(box, values).has_value(), "the plane can be read");
-            quantiser.codes(values, std::span(out).subspan(static_cast<std::size_t>(z) * plane, plane));
+            for (std::int64_t z = next++; z < n[2]; z = next++) {
+                const Box box{{0, 0, z}, {n[0] - 1, n[1] - 1, z}};
+                base::check(cube.read(box, values).has_value(), "the plane can be read");
+                quantiser.codes(values, std::span(out).subspan(static_cast<std::size_t>(z) * plane, plane));
+            }
         });
     }
     state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(voxels * sizeof(float)));
