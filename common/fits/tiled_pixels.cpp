@@ -10,6 +10,8 @@ namespace shearwater::fits {
 
 namespace {
 
+using volume::Box;
+
 constexpr std::int64_t most_at_once = std::int64_t{1} << 18;  // so that a request to stop is soon heard
 constexpr std::int64_t most_wide = std::int64_t{1} << 20;     // doubles held at a time
 
@@ -46,6 +48,46 @@ int read_values(fitsfile* file, std::vector<long> first, std::vector<long> last,
     fits_read_subset(file, type, first.data(), last.data(), step.data(), &null, out.data(), &any_null,
                      &status);
     return status;
+}
+
+// A box cut by a grid of blocks that begins at voxel 0.
+std::vector<Box> cut_up(const Box& box, const volume::Index3& sides) {
+    const auto end = [&](const Box& block, std::size_t axis) {
+        return std::min(box.hi[axis], (block.lo[axis] / sides[axis] + 1) * sides[axis] - 1);
+    };
+    std::vector<Box> blocks;
+    Box block;
+    for (block.lo[2] = box.lo[2]; block.lo[2] <= box.hi[2]; block.lo[2] = block.hi[2] + 1) {
+        block.hi[2] = end(block, 2);
+        for (block.lo[1] = box.lo[1]; block.lo[1] <= box.hi[1]; block.lo[1] = block.hi[1] + 1) {
+            block.hi[1] = end(block, 1);
+            for (block.lo[0] = box.lo[0]; block.lo[0] <= box.hi[0]; block.lo[0] = block.hi[0] + 1) {
+                block.hi[0] = end(block, 0);
+                blocks.push_back(block);
+            }
+        }
+    }
+    return blocks;
+}
+
+std::size_t offset_in(const Box& box, const volume::Index3& at) {
+    return static_cast<std::size_t>(
+        ((at[2] - box.lo[2]) * box.planes(1) + (at[1] - box.lo[1])) * box.planes(0) + (at[0] - box.lo[0]));
+}
+
+// Whether the voxels of a block are neighbours among those of the box.
+bool follow_each_other(const Box& block, const Box& box) {
+    return block.planes(0) == box.planes(0) && (block.planes(1) == box.planes(1) || block.planes(2) == 1);
+}
+
+void copy_block(std::span<const float> values, const Box& block, std::span<float> out, const Box& box) {
+    const auto row = static_cast<std::size_t>(block.planes(0));
+    for (std::int64_t z = block.lo[2]; z <= block.hi[2]; ++z) {
+        for (std::int64_t y = block.lo[1]; y <= block.hi[1]; ++y) {
+            std::copy_n(values.begin(), row, out.subspan(offset_in(box, {block.lo[0], y, z})).begin());
+            values = values.subspan(row);
+        }
+    }
 }
 
 }  // namespace
@@ -89,37 +131,28 @@ TiledPixels::Range TiledPixels::range_of(const volume::Box& box) const {
     return range;
 }
 
-// Parts of the range, along its last axis of more than one plane, until they are small: between tiles, so
-// that none is unpacked twice, or plane by plane where one tile has too many doubles.
-base::Status TiledPixels::read_range(const Reading& reading, const Range& range, std::span<float> out) {
-    std::size_t axis = dimensions_ - 1;
-    while (axis > 0 && range.first[axis] == range.last[axis]) {
-        --axis;
-    }
-    const long first = range.first[axis];
-    const long last = range.last[axis];
-    const long tile = tile_[axis];
-    const auto pixels = static_cast<std::int64_t>(out.size());
-    const bool many_tiles = (first - 1) / tile != (last - 1) / tile;
-    if (axis == 0 || !((many_tiles && pixels > most_at_once) || (wide_ && pixels > most_wide))) {
-        return read_part(reading, range, out);
-    }
-    const std::int64_t plane = pixels / (last - first + 1);
-    const long tiles = std::max(1L, most_at_once / plane / tile);
-    Range part = range;
-    for (long from = first; from <= last; from = part.last[axis] + 1) {
-        part.first[axis] = from;
-        part.last[axis] = many_tiles ? std::min(last, ((from - 1) / tile + tiles) * tile) : from;
-        const auto size = static_cast<std::size_t>((part.last[axis] - from + 1) * plane);
-        if (base::Status status = read_range(reading, part, out.first(size)); !status) {
-            return status;
+// The sides of the blocks that a box is read in. They meet between tiles, so that none is unpacked twice, and
+// hold no more than is wanted at once, or one tile; of doubles even a part of a tile.
+volume::Index3 TiledPixels::block_of(const volume::Box& box) const {
+    volume::Index3 sides = box.plane_counts();
+    volume::Index3 block = axes_.n;
+    const auto cut = [&](std::size_t axis, std::int64_t unit, std::int64_t most) {
+        const std::int64_t others = sides[0] * sides[1] * sides[2] / sides[axis];
+        if (others * sides[axis] > most && unit < sides[axis]) {
+            sides[axis] = block[axis] = std::max<std::int64_t>(1, most / others / unit) * unit;
         }
-        out = out.subspan(size);
+    };
+    for (std::size_t axis = 3; axis-- > 0;) {
+        cut(axis, tile_[static_cast<std::size_t>(axes_.axis[axis] - 1)], most_at_once);
     }
-    return {};
+    for (std::size_t axis = 3; wide_ && axis-- > 0;) {
+        cut(axis, 1, most_wide);
+    }
+    return block;
 }
 
-base::Status TiledPixels::read_part(const Reading& reading, const Range& range, std::span<float> out) {
+base::Status TiledPixels::read_block(const Reading& reading, const Box& block, std::span<float> out) {
+    const Range range = range_of(block);
     if (reading.stop.stop_requested()) {
         return base::error(base::Code::cancelled, reading.operation, "stopped");
     }
@@ -141,10 +174,23 @@ base::Status TiledPixels::read_part(const Reading& reading, const Range& range, 
     return {};
 }
 
-base::Status TiledPixels::read(fitsfile* file, const Bytes& bytes, const volume::Box& box,
-                               std::span<float> out, const std::string& operation,
-                               const std::stop_token& stop) {
-    return read_range({file, bytes, operation, stop}, range_of(box), out);
+base::Status TiledPixels::read(fitsfile* file, const Bytes& bytes, const Box& box, std::span<float> out,
+                               const std::string& operation, const std::stop_token& stop) {
+    const Reading reading{file, bytes, operation, stop};
+    std::vector<float> values;
+    for (const Box& block : cut_up(box, block_of(box))) {
+        const auto count = static_cast<std::size_t>(block.voxels());
+        const bool in_place = follow_each_other(block, box);
+        values.resize(in_place ? 0 : count);
+        const auto into = in_place ? out.subspan(offset_in(box, block.lo), count) : std::span(values);
+        if (base::Status status = read_block(reading, block, into); !status) {
+            return status;
+        }
+        if (!in_place) {
+            copy_block(values, block, out, box);
+        }
+    }
+    return {};
 }
 
 }  // namespace shearwater::fits

@@ -45,8 +45,8 @@ class TiledPixels {
         const std::stop_token& stop;
     };
     Range range_of(const volume::Box& box) const;
-    base::Status read_range(const Reading& reading, const Range& range, std::span<float> out);
-    base::Status read_part(const Reading& reading, const Range& range, std::span<float> out);
+    volume::Index3 block_of(const volume::Box& box) const;
+    base::Status read_block(const Reading& reading, const volume::Box& block, std::span<float> out);
 
     CubeAxes axes_;
     std::size_t dimensions_ = 0;      // of the file's image
