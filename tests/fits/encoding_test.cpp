@@ -33,6 +33,12 @@ std::vector<char> pixels_of(const Encoding& encoding, std::size_t count, unsigne
             bytes[i * size + 1] = static_cast<char>(byte < 4 ? 0x80 : byte < 6 ? 0x7f : 0xf0);
         }
     }
+    if (encoding.bitpix == -64) {
+        // Past the largest float by less than what is rounded away.
+        for (std::size_t i = 2; i < count; i += 7) {
+            std::copy_n("\x47\xef\xff\xff\xe0\x00\x00\x01", size, &bytes[i * size]);
+        }
+    }
     return bytes;
 }
 

@@ -85,15 +85,20 @@ TEST_F(Reading, BoxesOfAnyShapeAreFoundInFilesOfAnyShape) {
 // The fourth axis stands in front of the cube's, so that no two of its pixels follow each other.
 TEST_F(Reading, OnePlaneOfAnAxisInFrontIsPickedOut) {
     std::mt19937 random(2);
-    const Index3 n{31, 17, 11};
-    for (const int bitpix : {16, -32}) {
-        FitsImage image{.bitpix = bitpix, .axes = {4, 31, 17, 11}, .raw = numbers(4 * 31 * 17 * 11)};
-        image.texts = {{"CTYPE1", "STOKES"}};
-        Cube cube = cube_of(image, {.plane = 2});
-        ASSERT_EQ(cube.info().n, n);
-        for (int trial = 0; trial < 12; ++trial) {
-            expect_numbers(cube, random_box(n, random),
-                           [&](const Index3& at) { return 2 + 4 * (at[0] + n[0] * (at[1] + n[1] * at[2])); });
+    for (const Index3& n : {Index3{31, 17, 11}, {30000, 3, 2}}) {
+        for (const int bitpix : {32, -32}) {
+            FitsImage image{
+                .bitpix = bitpix,
+                .axes = {4, static_cast<long>(n[0]), static_cast<long>(n[1]), static_cast<long>(n[2])},
+                .raw = numbers(static_cast<std::size_t>(4 * n[0] * n[1] * n[2]))};
+            image.texts = {{"CTYPE1", "STOKES"}};
+            Cube cube = cube_of(image, {.plane = 2});
+            ASSERT_EQ(cube.info().n, n);
+            for (int trial = 0; trial < 8; ++trial) {
+                expect_numbers(
+                    cube, trial == 0 ? volume::whole(n) : random_box(n, random),
+                    [&](const Index3& at) { return 2 + 4 * (at[0] + n[0] * (at[1] + n[1] * at[2])); });
+            }
         }
     }
 }
@@ -105,13 +110,16 @@ TEST_F(Reading, CompressedBoxesAreCutBetweenTiles) {
     for (const std::vector<long>& tile :
          {std::vector<long>{200, 1, 1}, {32, 32, 8}, {200, 190, 30}, {7, 190, 1}}) {
         for (const int bitpix : {32, -64}) {
+            if (bitpix < 0 && tile[2] == 1) {
+                continue;
+            }
             Cube cube = cube_of({.bitpix = bitpix,
                                  .axes = {200, 190, 30},
                                  .raw = numbers(200 * 190 * 30),
                                  .compression = bitpix > 0 ? 11 : 21,  // RICE_1, GZIP_1 of cfitsio
                                  .tile = tile});
             EXPECT_FALSE(cube.concurrent());
-            for (int trial = 0; trial < 4; ++trial) {
+            for (int trial = 0; trial < 3; ++trial) {
                 const Box box = trial == 0 ? volume::whole(n) : random_box(n, random);
                 expect_numbers(cube, box,
                                [&](const Index3& at) { return at[0] + n[0] * (at[1] + n[1] * at[2]); });
