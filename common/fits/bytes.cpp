@@ -66,7 +66,7 @@ Bytes::~Bytes() {
     }
 }
 
-base::Result<Bytes> Bytes::open(const std::string& path) {
+base::Result<Bytes> Bytes::open(const std::string& path, const std::stop_token& stop) {
     const std::string operation = "open " + path;
     struct stat about {};
     if (::stat(path.c_str(), &about) != 0) {
@@ -98,7 +98,7 @@ base::Result<Bytes> Bytes::open(const std::string& path) {
         }
     }
     if (start.starts_with("\x1f\x8b")) {
-        if (base::Status unpacked = bytes.unpack(operation); !unpacked) {
+        if (base::Status unpacked = bytes.unpack(operation, stop); !unpacked) {
             return unpacked.error();
         }
     } else if (start != fits_start) {
@@ -165,7 +165,8 @@ base::Status Bytes::pad(std::int64_t size, const std::string& operation) {
     return {};
 }
 
-base::Status Bytes::unpack(const std::string& operation) {
+base::Status Bytes::unpack(const std::string& operation, const std::stop_token& stop) {
+    constexpr std::size_t most_at_once = std::size_t{16} << 20;  // so that a request to stop is soon heard
     const std::size_t limit = unpack_limit();
     Inflater inflater;
     std::vector<char> packed(std::size_t{1} << 18);
@@ -179,6 +180,9 @@ base::Status Bytes::unpack(const std::string& operation) {
     std::int64_t taken = 0;
     bool ended = false;
     while (true) {
+        if (stop.stop_requested()) {
+            return base::error(Code::cancelled, operation, "stopped");
+        }
         if (stream.avail_in == 0) {
             const auto count = static_cast<std::size_t>(
                 std::min<std::int64_t>(size_ - taken, static_cast<std::int64_t>(packed.size())));
@@ -210,7 +214,7 @@ base::Status Bytes::unpack(const std::string& operation) {
                 return base::error(Code::too_large, operation, "no memory to unpack it");
             }
         }
-        const auto room = static_cast<uInt>(std::min<std::size_t>(capacity - filled, std::size_t{1} << 30));
+        const auto room = static_cast<uInt>(std::min(capacity - filled, most_at_once));
         stream.next_out = static_cast<Bytef*>(memory.get()) + filled;
         stream.avail_out = room;
         const int outcome = inflate(&stream, Z_NO_FLUSH);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <string>
 
 #include "common/base/result.h"
@@ -16,7 +17,7 @@ class Bytes {
     // Refuses what is not a regular file, what is packed by anything but gzip, and what does not begin
     // as FITS does. A gzip stream is unpacked to its end, growing with what it really holds up to a
     // limit, so that one that is cut off, damaged or absurd is refused here.
-    static base::Result<Bytes> open(const std::string& path);
+    static base::Result<Bytes> open(const std::string& path, const std::stop_token& stop = {});
 
     Bytes(Bytes&& other) noexcept;
     Bytes& operator=(Bytes&&) = delete;
@@ -24,7 +25,8 @@ class Bytes {
 
     std::int64_t size() const { return size_; }
 
-    // Fills `out` from `offset` on; false where the file ends too soon or cannot be read.
+    // Fills `out` from `offset` on; false where the file ends too soon or cannot be read. Any
+    // number of threads may read at once.
     bool read(std::int64_t offset, std::span<char> out) const;
 
     // Holds the bytes in memory, with zeros behind them up to `size`: for a file whose last block was not
@@ -43,7 +45,7 @@ class Bytes {
     static bool resize(Memory& memory, std::size_t size);
 
     explicit Bytes(int descriptor, std::int64_t size) : descriptor_(descriptor), size_(size) {}
-    base::Status unpack(const std::string& operation);
+    base::Status unpack(const std::string& operation, const std::stop_token& stop);
 
     int descriptor_;
     std::int64_t size_;

@@ -8,8 +8,9 @@
 #include "common/base/check.h"
 #include "common/fits/axes.h"
 #include "common/fits/handle.h"
-#include "common/fits/pixels.h"
+#include "common/fits/plain_pixels.h"
 #include "common/fits/survey.h"
+#include "common/fits/tiled_pixels.h"
 
 namespace shearwater::fits {
 
@@ -39,18 +40,46 @@ CubeInfo describe(const std::string& path, const Survey& survey, const CubeAxes&
 
 }  // namespace
 
-// The handle reads from the bytes, so it goes first.
+// Pixels as they lie in the file, or a handle that unpacks them: it reads from the bytes, so it goes first.
 struct Cube::File {
     Bytes bytes;
+    CubeInfo info;
+    std::stop_token stop;
+    std::optional<PlainPixels> plain;
     MemoryFile memory;
     Handle handle;
-    PixelReader reader;
-    CubeInfo info;
+    TiledPixels tiled;
+
+    base::Status open_tiles(Survey& survey, const CubeAxes& axes, const Encoding& encoding,
+                            const std::string& operation);
 };
+
+base::Status Cube::File::open_tiles(Survey& survey, const CubeAxes& axes, const Encoding& encoding,
+                                    const std::string& operation) {
+    // cfitsio reads whole blocks only.
+    if (survey.cube.next_offset > bytes.size()) {
+        if (base::Status padded = bytes.pad(survey.cube.next_offset, operation); !padded) {
+            return padded.error();
+        }
+    }
+    memory = {bytes.unpacked(), static_cast<std::size_t>(bytes.size())};
+    auto opened =
+        bytes.unpacked() != nullptr ? open_memory(memory, operation) : open_disk(info.path, operation);
+    if (!opened) {
+        return opened.error();
+    }
+    handle = std::move(*opened);
+    auto pixels = TiledPixels::prepare(handle.get(), survey.cube, axes, encoding, operation);
+    if (!pixels) {
+        return pixels.error();
+    }
+    tiled = std::move(*pixels);
+    return {};
+}
 
 base::Result<Cube> Cube::open(const std::string& path, const OpenOptions& options) {
     const std::string operation = "open " + path;
-    auto bytes = Bytes::open(path);
+    auto bytes = Bytes::open(path, options.stop);
     if (!bytes) {
         return bytes.error();
     }
@@ -59,32 +88,23 @@ base::Result<Cube> Cube::open(const std::string& path, const OpenOptions& option
         return survey.error();
     }
     if (const std::int64_t missing = survey->cube.next_offset - bytes->size(); missing > 0) {
-        if (base::Status padded = bytes->pad(survey->cube.next_offset, operation); !padded) {
-            return padded.error();
-        }
         survey->notes.push_back("the last block of the file is " + std::to_string(missing) + " bytes short");
     }
     const auto axes = choose_axes(survey->cube, options.plane, operation);
     if (!axes) {
         return axes.error();
     }
-    auto file = std::make_unique<File>(File{.bytes = std::move(*bytes),
-                                            .memory = {},
-                                            .handle = {},
-                                            .reader = {},
-                                            .info = describe(path, *survey, *axes)});
-    file->memory = {file->bytes.unpacked(), static_cast<std::size_t>(file->bytes.size())};
-    auto handle =
-        file->bytes.unpacked() != nullptr ? open_memory(file->memory, operation) : open_disk(path, operation);
-    if (!handle) {
-        return handle.error();
+    auto file = std::make_unique<File>(
+        File{.bytes = std::move(*bytes), .info = describe(path, *survey, *axes), .stop = options.stop});
+    const auto encoding = read_encoding(survey->cube, operation, file->info.notes);
+    if (!encoding) {
+        return encoding.error();
     }
-    file->handle = std::move(*handle);
-    auto reader = PixelReader::prepare(file->handle.get(), survey->cube, *axes, operation, file->info.notes);
-    if (!reader) {
-        return reader.error();
+    if (survey->cube.kind == HduKind::image) {
+        file->plain.emplace(survey->cube, *axes, *encoding);
+    } else if (base::Status opened = file->open_tiles(*survey, *axes, *encoding, operation); !opened) {
+        return opened.error();
     }
-    file->reader = std::move(*reader);
     return Cube(std::move(file));
 }
 
@@ -100,7 +120,15 @@ const CubeInfo& Cube::info() const {
 base::Status Cube::read(const volume::Box& box, std::span<float> out) {
     base::check(volume::whole(file_->info.n).contains(box), "the box lies in the cube");
     base::check(static_cast<std::int64_t>(out.size()) == box.voxels(), "one float for each voxel");
-    return file_->reader.read(file_->handle.get(), file_->bytes, box, out, "read " + file_->info.path);
+    const std::string operation = "read " + file_->info.path;
+    if (file_->plain) {
+        return file_->plain->read(file_->bytes, box, out, operation, file_->stop);
+    }
+    return file_->tiled.read(file_->handle.get(), file_->bytes, box, out, operation, file_->stop);
+}
+
+bool Cube::concurrent() const {
+    return file_->plain.has_value();
 }
 
 }  // namespace shearwater::fits

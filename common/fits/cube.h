@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ namespace shearwater::fits {
 struct OpenOptions {
     std::optional<int> hdu;             // 0 is the primary; unset: the first that holds a cube
     std::optional<std::int64_t> plane;  // index along a fourth axis longer than 1; unset: 0, with a note
+    std::stop_token stop;               // once requested, opening and reading end as cancelled
 };
 
 struct CubeInfo {
@@ -33,7 +35,8 @@ struct CubeInfo {
     std::vector<std::string> notes;
 };
 
-// One cube. Move-only; owns the file handle. Safe in one thread at a time; open it again for another.
+// One cube. Move-only; owns the file handle. Reads of one that is not compressed may go on in several
+// threads at once; open another again for another thread.
 class Cube final : public volume::VoxelSource {
   public:
     // Never allocates by what the header says before the file's size has confirmed it. Names are plain
@@ -46,6 +49,7 @@ class Cube final : public volume::VoxelSource {
 
     const CubeInfo& info() const;
     base::Status read(const volume::Box& box, std::span<float> out) override;
+    bool concurrent() const override;
 
   private:
     struct File;

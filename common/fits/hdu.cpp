@@ -92,6 +92,15 @@ std::optional<std::int64_t> claimed_bytes(const Hdu& hdu, int bitpix, const std:
     return bytes;
 }
 
+// The number of a scaling keyword, repaired where it is none.
+double scaling(const Header& header, const char* keyword, double usual, std::vector<std::string>& notes) {
+    const auto value = header.real(keyword);
+    if (!value && header.has(keyword)) {
+        notes.push_back(std::string(keyword) + " is not a number and is ignored");
+    }
+    return value.value_or(usual);
+}
+
 bool begins_extension(const Bytes& bytes, std::int64_t offset) {
     constexpr std::string_view start = "XTENSION=";
     std::array<char, start.size()> found{};
@@ -153,6 +162,27 @@ base::Status check_present(const Hdu& hdu, const Bytes& bytes, const std::string
     return corrupt(operation, hdu.number,
                    "the file is cut off: " + std::to_string(hdu.data_bytes - present) + " of " +
                        std::to_string(hdu.data_bytes) + " data bytes are missing");
+}
+
+base::Result<Encoding> read_encoding(const Hdu& hdu, const std::string& operation,
+                                     std::vector<std::string>& notes) {
+    for (const std::string& keyword : hdu.header.contradicted()) {
+        if (hdu.kind == HduKind::image && (keyword == "BITPIX" || keyword.starts_with("NAXIS"))) {
+            return corrupt(operation, hdu.number, "the header gives more than one shape");
+        }
+    }
+    Encoding encoding{.bitpix = hdu.bitpix};
+    encoding.scale = scaling(hdu.header, "BSCALE", 1, notes);
+    encoding.zero = scaling(hdu.header, "BZERO", 0, notes);
+    if (encoding.scale == 0) {
+        notes.push_back("BSCALE is 0: every value is BZERO");
+    }
+    if (hdu.bitpix > 0) {
+        encoding.blank = hdu.header.integer("BLANK");
+    } else if (hdu.header.has("BLANK")) {
+        notes.push_back("BLANK has no meaning among floating-point values and is ignored");
+    }
+    return encoding;
 }
 
 }  // namespace shearwater::fits

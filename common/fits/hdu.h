@@ -8,6 +8,7 @@
 
 #include "common/base/result.h"
 #include "common/fits/bytes.h"
+#include "common/fits/encoding.h"
 #include "common/fits/header.h"
 
 namespace shearwater::fits {
@@ -35,5 +36,10 @@ base::Result<std::optional<Hdu>> read_hdu(const Bytes& bytes, std::int64_t offse
 
 // Whether the file holds all data that an HDU claims: the error names what is missing.
 base::Status check_present(const Hdu& hdu, const Bytes& bytes, const std::string& operation);
+
+// How an image stores its values. Refuses a header with more than one shape of it; scaling that cannot be
+// used is left out, with a note.
+base::Result<Encoding> read_encoding(const Hdu& hdu, const std::string& operation,
+                                     std::vector<std::string>& notes);
 
 }  // namespace shearwater::fits

@@ -1,6 +1,6 @@
 #pragma once
 // One FITS header as keywords and values. It is read here, before cfitsio sees it, so that what it
-// claims is judged first; cfitsio then reads the pixels.
+// claims is judged first; cfitsio then unpacks compressed pixels.
 
 #include <cstdint>
 #include <functional>

@@ -1,15 +1,73 @@
 #include "common/volume/histogram.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "common/volume/histogram.cpp"
+#include <hwy/foreach_target.h>
+// Behind it, once for each target.
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace shearwater::volume::HWY_NAMESPACE {
+
+using Extremes = Histogram::Extremes;
+
+// Keys of as many of the values as whole vectors hold, and says how many those are.
+#if HWY_TARGET == HWY_SCALAR
+
+std::size_t find_keys(const float*, std::size_t, std::uint32_t*, Extremes&) {
+    return 0;
+}
+
+#else
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+std::size_t find_keys(const float* values, std::size_t count, std::uint32_t* keys, Extremes& extremes) {
+    const hn::ScalableTag<float> d;
+    const hn::RebindToSigned<decltype(d)> integers;
+    const hn::RebindToUnsigned<decltype(d)> unsigneds;
+    const auto infinity = hn::Inf(d);
+    auto least = hn::Set(d, extremes.least);
+    auto most = hn::Set(d, extremes.most);
+    const std::size_t step = hn::Lanes(d);
+    std::size_t i = 0;
+    for (; i + step <= count; i += step) {
+        const auto value = hn::Add(hn::LoadU(d, values + i), hn::Zero(d));
+        const auto valid = hn::Lt(hn::Abs(value), infinity);
+        least = hn::Min(least, hn::IfThenElse(valid, value, infinity));
+        most = hn::Max(most, hn::IfThenElse(valid, value, hn::Neg(infinity)));
+        const auto signs = hn::ShiftRight<31>(hn::BitCast(integers, value));
+        const auto turned = hn::Or(hn::BitCast(unsigneds, signs), hn::Set(unsigneds, 0x80000000U));
+        const auto key =
+            hn::ShiftRight<Histogram::dropped_bits>(hn::Xor(hn::BitCast(unsigneds, value), turned));
+        const auto is_valid = hn::RebindMask(unsigneds, valid);
+        hn::StoreU(hn::IfThenElse(is_valid, key, hn::Set(unsigneds, Histogram::blank_key)), unsigneds,
+                   keys + i);
+    }
+    extremes.least = hn::GetLane(hn::MinOfLanes(d, least));
+    extremes.most = hn::GetLane(hn::MaxOfLanes(d, most));
+    return i;
+}
+
+#endif
+
+}  // namespace shearwater::volume::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace shearwater::volume {
+
+HWY_EXPORT(find_keys);
 
 namespace {
 
-constexpr int dropped_bits = 32 - (1 + 8 + Histogram::mantissa_bits);
 constexpr std::uint32_t sign_bit = 0x80000000U;
 constexpr std::uint32_t exponent_bits = 0x7f800000U;
 
@@ -22,6 +80,16 @@ bool finite(float value) {
 std::uint32_t ordered_bits(float value) {
     const auto bits = std::bit_cast<std::uint32_t>(value + 0.0F);
     return bits ^ ((bits & sign_bit) != 0 ? 0xffffffffU : sign_bit);
+}
+
+// The definition of what the vectors do.
+std::uint32_t find_key(float value, Histogram::Extremes& extremes) {
+    if (!finite(value)) {
+        return Histogram::blank_key;
+    }
+    extremes.least = std::min(extremes.least, value);
+    extremes.most = std::max(extremes.most, value);
+    return Histogram::key_of(value);
 }
 
 }  // namespace
@@ -47,23 +115,26 @@ void Histogram::add(float value) {
 }
 
 void Histogram::add(std::span<const float> values) {
-    float least = std::numeric_limits<float>::infinity();
-    float most = -least;
-    std::uint64_t blank = 0;
-    for (const float value : values) {
-        if (!finite(value)) {
-            ++blank;
-            continue;
+    std::array<std::uint32_t, 512> keys;
+    Extremes extremes;
+    const std::uint64_t count = values.size();
+    while (!values.empty()) {
+        const auto part = values.first(std::min(values.size(), keys.size()));
+        std::size_t done = HWY_DYNAMIC_DISPATCH(find_keys)(part.data(), part.size(), keys.data(), extremes);
+        for (; done < part.size(); ++done) {
+            keys[done] = find_key(part[done], extremes);
         }
-        ++counts_[key_of(value)];
-        least = std::min(least, value);
-        most = std::max(most, value);
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            ++counts_[keys[i]];
+        }
+        values = values.subspan(part.size());
     }
-    const std::uint64_t valid = values.size() - blank;
+    const std::uint64_t blank = std::exchange(counts_[blank_key], 0);
+    const std::uint64_t valid = count - blank;
     blank_ += blank;
     if (valid != 0) {
-        min_ = valid_ == 0 ? least : std::min(min_, double{least});
-        max_ = valid_ == 0 ? most : std::max(max_, double{most});
+        min_ = valid_ == 0 ? extremes.least : std::min(min_, double{extremes.least});
+        max_ = valid_ == 0 ? extremes.most : std::max(max_, double{extremes.most});
         min_ += 0.0;
         max_ += 0.0;
         valid_ += valid;
@@ -150,3 +221,4 @@ Limits percentile_limits(const Histogram& histogram, double percent) {
 }
 
 }  // namespace shearwater::volume
+#endif

@@ -3,6 +3,7 @@
 // add up to exactly that of the whole, in any order.
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,16 @@ class Histogram {
         std::uint32_t key;  // ordered as the values are
         std::uint64_t count;
         bool operator==(const Bin&) const = default;
+    };
+
+    // A key is what remains of a float's bits, ordered as the values are, when so many are dropped.
+    static constexpr int dropped_bits = 32 - (1 + 8 + mantissa_bits);
+    // Where blank values are counted for a while: a bin of NaN.
+    static constexpr std::uint32_t blank_key = bins - 1;
+    // The least and the largest of the values that are not blank.
+    struct Extremes {
+        float least = std::numeric_limits<float>::infinity();
+        float most = -std::numeric_limits<float>::infinity();
     };
 
     Histogram();

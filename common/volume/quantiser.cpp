@@ -1,13 +1,144 @@
 #include "common/volume/quantiser.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 
 #include "common/base/check.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "common/volume/quantiser.cpp"
+#include <hwy/foreach_target.h>
+// Behind it, once for each target.
+#include <hwy/contrib/math/math-inl.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace shearwater::volume::HWY_NAMESPACE {
+
+using Guess = Quantiser::Guess;
+
+// Codes of all values, or of none where there are no vectors.
+#if HWY_TARGET == HWY_SCALAR
+
+template <class Code>
+std::size_t find_codes(const Guess&, const float*, std::size_t, Code*) {
+    return 0;
+}
+
+#else
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::ScalableTag<float>;
+using Vector = hn::VFromD<Floats>;
+
+// t of finite values, rounded to single precision at the end only: limits may lie close together.
+Vector unit(const Guess& guess, Vector value) {
+    const hn::ScalableTag<double> wide;
+    const hn::Half<Floats> half;
+    const auto lo = hn::Set(wide, guess.lo);
+    const auto scale = hn::Set(wide, guess.scale);
+    const auto of_half = [&](hn::VFromD<decltype(half)> part) {
+        const auto t = hn::Mul(hn::Sub(hn::PromoteTo(wide, part), lo), scale);
+        return hn::DemoteTo(half, hn::Min(hn::Max(t, hn::Zero(wide)), hn::Set(wide, 1.0)));
+    };
+    return hn::Combine(Floats(), of_half(hn::UpperHalf(half, value)), of_half(hn::LowerHalf(half, value)));
+}
+
+template <Stretch stretch>
+Vector approximate(Vector t) {
+    const Floats d;
+    const Vector one = hn::Set(d, 1.0F);
+    if constexpr (stretch == Stretch::sqrt) {
+        return hn::Sqrt(t);
+    } else if constexpr (stretch == Stretch::log) {
+        const Vector log = hn::Log(d, hn::MulAdd(t, hn::Set(d, 999.0F), one));
+        return hn::Mul(log, hn::Set(d, Guess::log_factor));
+    } else if constexpr (stretch == Stretch::asinh) {
+        const Vector u = hn::Mul(t, hn::Set(d, 10.0F));
+        const Vector log = hn::Log(d, hn::Add(u, hn::Sqrt(hn::MulAdd(u, u, one))));
+        return hn::Mul(log, hn::Set(d, Guess::asinh_factor));
+    } else {
+        return t;
+    }
+}
+
+// The guess lies within half a code of the truth, so that this is the code nearest to it or the one below:
+// one threshold tells. It is not even looked up where all guesses are far enough from one.
+template <Stretch stretch>
+hn::VFromD<hn::RebindToSigned<Floats>> codes_of(const Guess& guess, Vector value) {
+    const Floats d;
+    const hn::RebindToSigned<Floats> integers;
+    const auto finite = hn::Le(hn::Abs(value), hn::Set(d, std::numeric_limits<float>::max()));
+    const Vector known = hn::IfThenElseZero(finite, value);
+    const Vector s = approximate<stretch>(unit(guess, known));
+    const Vector place = hn::MulAdd(s, hn::Set(d, guess.top), hn::Set(d, 1.5F));
+    auto code = hn::ConvertTo(integers, hn::Add(place, hn::Set(d, 0.5F)));
+    const Vector threshold_place = hn::ConvertTo(d, code);
+    const auto far = hn::Gt(hn::Abs(hn::Sub(place, threshold_place)), hn::Set(d, guess.margin));
+    auto below = hn::Lt(place, threshold_place);
+    if (!hn::AllTrue(d, far)) {
+        below = hn::Lt(known, hn::GatherIndex(d, guess.thresholds, code));
+    }
+    code = hn::Add(code, hn::BitCast(integers, hn::VecFromMask(d, below)));
+    return hn::IfThenElseZero(hn::RebindMask(integers, finite), code);
+}
+
+template <Stretch stretch, class Code>
+std::size_t find_codes_of(const Guess& guess, const float* values, std::size_t count, Code* out) {
+    const Floats d;
+    const hn::Rebind<Code, Floats> narrow;
+    const std::size_t step = hn::Lanes(d);
+    std::size_t i = 0;
+    for (; i + step <= count; i += step) {
+        hn::StoreU(hn::DemoteTo(narrow, codes_of<stretch>(guess, hn::LoadU(d, values + i))), narrow, out + i);
+    }
+    if (i < count) {
+        HWY_ALIGN std::array<float, hn::MaxLanes(d)> rest{};
+        HWY_ALIGN std::array<Code, hn::MaxLanes(d)> codes;
+        std::copy(values + i, values + count, rest.begin());
+        hn::Store(hn::DemoteTo(narrow, codes_of<stretch>(guess, hn::Load(d, rest.data()))), narrow,
+                  codes.data());
+        std::copy_n(codes.begin(), count - i, out + i);
+    }
+    return count;
+}
+
+template <class Code>
+std::size_t find_codes(const Guess& guess, const float* values, std::size_t count, Code* out) {
+    switch (guess.stretch) {
+        case Stretch::linear:
+            return find_codes_of<Stretch::linear>(guess, values, count, out);
+        case Stretch::sqrt:
+            return find_codes_of<Stretch::sqrt>(guess, values, count, out);
+        case Stretch::log:
+            return find_codes_of<Stretch::log>(guess, values, count, out);
+        case Stretch::asinh:
+            return find_codes_of<Stretch::asinh>(guess, values, count, out);
+    }
+    return 0;
+}
+
+#endif
+
+std::size_t find_codes8(const Guess& guess, const float* values, std::size_t count, std::uint8_t* out) {
+    return find_codes(guess, values, count, out);
+}
+std::size_t find_codes16(const Guess& guess, const float* values, std::size_t count, std::uint16_t* out) {
+    return find_codes(guess, values, count, out);
+}
+
+}  // namespace shearwater::volume::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace shearwater::volume {
+
+HWY_EXPORT(find_codes8);
+HWY_EXPORT(find_codes16);
 
 namespace {
 
@@ -51,17 +182,41 @@ float threshold(const Mapping& mapping, int code, float from) {
     return above > rank_of(largest) ? infinity : float_of(above);
 }
 
-template <Stretch stretch>
-float approximate(float t) {
-    if constexpr (stretch == Stretch::sqrt) {
-        return std::sqrt(t);
-    } else if constexpr (stretch == Stretch::log) {
-        return std::log(1 + 999 * t) * 0.144764827F;  // 1 / (3 ln 10)
-    } else if constexpr (stretch == Stretch::asinh) {
-        const float u = 10 * t;
-        return std::log(u + std::sqrt(u * u + 1)) * 0.333538656F;  // 1 / asinh 10
-    } else {
-        return t;
+float approximate(Stretch stretch, float t) {
+    switch (stretch) {
+        case Stretch::linear:
+            return t;
+        case Stretch::sqrt:
+            return std::sqrt(t);
+        case Stretch::log:
+            return std::log(1 + 999 * t) * Quantiser::Guess::log_factor;
+        case Stretch::asinh: {
+            const float u = 10 * t;
+            return std::log(u + std::sqrt(u * u + 1)) * Quantiser::Guess::asinh_factor;
+        }
+    }
+    return t;
+}
+
+// The definition: from any guess to the right code, threshold by threshold.
+template <class Code>
+void find_plainly(const Quantiser::Guess& guess, std::span<const float> values, std::span<Code> out) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const float value = values[i];
+        if (!(std::fabs(value) <= largest)) {
+            out[i] = 0;
+            continue;
+        }
+        const double t = std::clamp((double{value} - guess.lo) * guess.scale, 0.0, 1.0);
+        const float place = approximate(guess.stretch, static_cast<float>(t)) * guess.top + 1.5F;
+        auto code = static_cast<std::uint32_t>(std::min(place, guess.top + 1));
+        while (value < guess.thresholds[code]) {
+            --code;
+        }
+        while (value >= guess.thresholds[code + 1]) {
+            ++code;
+        }
+        out[i] = static_cast<Code>(code);
     }
 }
 
@@ -79,57 +234,35 @@ Quantiser::Quantiser(const Mapping& mapping) : mapping_(mapping) {
     std::replace(thresholds_.begin() + 2, thresholds_.end(), -infinity, infinity);
 }
 
-template <Stretch stretch, class Code>
-void Quantiser::run(std::span<const float> values, std::span<Code> out) const {
-    const double lo = mapping_.lo;
-    // The largest scale stands for a constant cube's: its values guess the first or the last code.
+Quantiser::Guess Quantiser::guess() const {
     constexpr double steepest = std::numeric_limits<double>::max();
-    const double scale =
-        mapping_.lo < mapping_.hi ? std::min(1 / (mapping_.hi - mapping_.lo), steepest) : steepest;
-    const int levels = mapping_.levels();
-    const auto top = static_cast<float>(levels - 1);
-    const float* thresholds = thresholds_.data();
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const float value = values[i];
-        if (!(std::fabs(value) <= largest)) {
-            out[i] = 0;
-            continue;
-        }
-        const double t = std::min(std::max((double{value} - lo) * scale, 0.0), 1.0);
-        const float guess = approximate<stretch>(static_cast<float>(t)) * top + 1.5F;
-        auto code = static_cast<std::uint32_t>(std::min(static_cast<int>(guess), levels));
-        while (value < thresholds[code]) {
-            --code;
-        }
-        while (value >= thresholds[code + 1]) {
-            ++code;
-        }
-        out[i] = static_cast<Code>(code);
-    }
-}
-
-template <class Code>
-void Quantiser::dispatch(std::span<const float> values, std::span<Code> out) const {
-    base::check(values.size() == out.size(), "one code per value");
-    switch (mapping_.stretch) {
-        case Stretch::linear:
-            return run<Stretch::linear>(values, out);
-        case Stretch::sqrt:
-            return run<Stretch::sqrt>(values, out);
-        case Stretch::log:
-            return run<Stretch::log>(values, out);
-        case Stretch::asinh:
-            return run<Stretch::asinh>(values, out);
-    }
+    const double scale = mapping_.lo < mapping_.hi ? 1 / (mapping_.hi - mapping_.lo) : steepest;
+    return {.stretch = mapping_.stretch,
+            .lo = mapping_.lo,
+            .scale = std::min(scale, steepest),
+            .top = static_cast<float>(mapping_.levels() - 1),
+            // Several times what single precision can be wrong by, in codes.
+            .margin = mapping_.bits == 8 ? 0x1p-10F : 0x1p-4F,
+            .good = scale < steepest,
+            .thresholds = thresholds_.data()};
 }
 
 void Quantiser::codes(std::span<const float> values, std::span<std::uint8_t> out) const {
+    base::check(values.size() == out.size(), "one code per value");
     base::check(mapping_.bits == 8, "8-bit codes of an 8-bit mapping");
-    dispatch(values, out);
+    const Guess by = guess();
+    const std::size_t done =
+        by.good ? HWY_DYNAMIC_DISPATCH(find_codes8)(by, values.data(), values.size(), out.data()) : 0;
+    find_plainly(by, values.subspan(done), out.subspan(done));
 }
 
 void Quantiser::codes(std::span<const float> values, std::span<std::uint16_t> out) const {
-    dispatch(values, out);
+    base::check(values.size() == out.size(), "one code per value");
+    const Guess by = guess();
+    const std::size_t done =
+        by.good ? HWY_DYNAMIC_DISPATCH(find_codes16)(by, values.data(), values.size(), out.data()) : 0;
+    find_plainly(by, values.subspan(done), out.subspan(done));
 }
 
 }  // namespace shearwater::volume
+#endif

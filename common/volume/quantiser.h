@@ -9,9 +9,9 @@
 
 namespace shearwater::volume {
 
-// Gives for every float exactly the code that its mapping gives, at the speed of loading. A single
-// precision guess finds the code to within one or so; the exact thresholds between codes, found once
-// by bisecting the mapping itself, put it right.
+// Gives for every float exactly the code that its mapping gives, at the speed of loading. A guess finds the
+// code to within one or so; the exact thresholds between codes, found once by bisecting the mapping itself,
+// put it right.
 class Quantiser {
   public:
     explicit Quantiser(const Mapping& mapping);
@@ -22,11 +22,21 @@ class Quantiser {
     void codes(std::span<const float> values, std::span<std::uint8_t> out) const;
     void codes(std::span<const float> values, std::span<std::uint16_t> out) const;
 
+    // What code a value probably has: the one that apply(stretch, (value - lo) * scale) * top + 1.5 lies in.
+    struct Guess {
+        static constexpr float log_factor = 0.144764827F;    // 1 / (3 ln 10)
+        static constexpr float asinh_factor = 0.333530900F;  // 1 / asinh 10
+
+        Stretch stretch;
+        double lo, scale;
+        float top;     // the last code but one
+        float margin;  // a guess further from a threshold than this is right
+        bool good;     // whether it is within half a code always
+        const float* thresholds;
+    };
+
   private:
-    template <Stretch stretch, class Code>
-    void run(std::span<const float> values, std::span<Code> out) const;
-    template <class Code>
-    void dispatch(std::span<const float> values, std::span<Code> out) const;
+    Guess guess() const;
 
     Mapping mapping_;
     // thresholds_[c] is the least float whose code is c or more; [0] and [1] are below, the one past

@@ -14,8 +14,12 @@ class VoxelSource {
     virtual ~VoxelSource() = default;
 
     // Fills `out` with the physical values of the voxels of planes lo to hi (both included) of `box`,
-    // axis 0 fastest: box.voxels() of them, blank ones NaN. Called from one thread at a time.
+    // axis 0 fastest: box.voxels() of them, blank ones NaN.
     virtual base::Status read(const Box& box, std::span<float> out) = 0;
+
+    // Whether read() may be called from several threads at once, and small boxes cost no more than large
+    // ones. If not, it is called from one thread at a time, best for large boxes.
+    virtual bool concurrent() const { return false; }
 };
 
 // Told the share done, 0 to 1, now and then while something long runs.

@@ -65,7 +65,7 @@ void Jobs::perform(leaf::Effect effect) {
 }
 
 base::Result<Jobs::Source> Jobs::open(leaf::Job job, const leaf::Share& share, const std::stop_token& stop) {
-    auto cube = fits::Cube::open(share.path, {.hdu = share.hdu, .plane = share.plane});
+    auto cube = fits::Cube::open(share.path, {.hdu = share.hdu, .plane = share.plane, .stop = stop});
     if (cube && cube->info().n == share.lattice.n) {
         return Source(std::make_shared<fits::Cube>(*std::move(cube)));
     }

@@ -87,6 +87,18 @@ TEST_F(Hostile, HeadersThatContradictThemselvesAreRefused) {
                 HasSubstr("NAXIS3"));
 }
 
+TEST_F(Hostile, AHeaderWithTwoShapesIsRefused) {
+    const std::vector<std::string> cards = {card("BITPIX", 8), card("NAXIS", 3), card("NAXIS1", 4),
+                                            card("NAXIS2", 4), card("NAXIS3", 4)};
+    for (const std::string& again : {card("NAXIS2", 2), card("BITPIX", 16), card("NAXIS", 2)}) {
+        std::vector<std::string> twice = cards;
+        twice.push_back(again);
+        const base::Error error = error_of(header(twice) + std::string(2880, '\0'));
+        EXPECT_EQ(error.code, Code::corrupt);
+        EXPECT_THAT(error.detail, HasSubstr("more than one shape"));
+    }
+}
+
 TEST_F(Hostile, ClaimsBeyondTheFileAreRefusedBeforeAnythingIsAllocated) {
     const auto claiming = [&](std::int64_t n) {
         return error_of(header({card("BITPIX", -32), card("NAXIS", 3), card("NAXIS1", n), card("NAXIS2", n),

@@ -192,5 +192,16 @@ TEST_F(Values, MissingPaddingDoesNoHarm) {
     expect_same(read_whole(packed), expected);
 }
 
+TEST_F(Values, MissingPaddingOfACompressedImageDoesNoHarm) {
+    support::write_fits(path_,
+                        {{.bitpix = 32, .axes = {5, 6, 7}, .raw = counting(210, 0), .compression = 11}});
+    const std::vector<float> expected = read_whole(path_);
+    const std::string bytes = support::slurp(path_);
+    ASSERT_EQ(bytes.substr(bytes.size() - 100), std::string(100, '\0'));
+    support::spill(path_, bytes.substr(0, bytes.size() - 100));
+    expect_same(read_whole(path_), expected);
+    EXPECT_THAT(Cube::open(path_)->info().notes, testing::ElementsAre(testing::HasSubstr("100 bytes short")));
+}
+
 }  // namespace
 }  // namespace shearwater::fits

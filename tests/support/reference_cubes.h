@@ -24,6 +24,7 @@ class FloatCube final : public volume::VoxelSource {
     const std::vector<float>& values() const { return values_; }
 
     base::Status read(const volume::Box& box, std::span<float> out) override;
+    bool concurrent() const override { return true; }
 
   private:
     std::size_t index(std::int64_t x, std::int64_t y, std::int64_t z) const {

@@ -6,8 +6,11 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <random>
+
+#include "tests/support/simd_targets.h"
 
 namespace shearwater::volume {
 namespace {
@@ -92,6 +95,44 @@ TEST(Histogram, AnyDivisionAddsUpToTheWhole) {
         expect_equal(live, expected);
         expect_equal(through_bins, expected);
     }
+}
+
+// Values of every size and both signs, one in nine blank, against counting them one by one.
+TEST(Histogram, EveryTargetCountsEachValueInItsBin) {
+    std::mt19937 random(6);
+    std::vector<float> all(3000);
+    for (float& value : all) {
+        value = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+        value = random() % 9 == 0 ? std::nanf("") : random() % 9 == 0 ? -0.0F : value;
+    }
+    support::for_each_target([&] {
+        for (std::size_t count = 0; count < 2000; count += count < 70 ? 1 : 411) {
+            const std::span<const float> values = std::span(all).subspan(count % 7, count);
+            std::map<std::uint32_t, std::uint64_t> bins;
+            std::uint64_t blank = 0;
+            float least = infinity;
+            float most = -infinity;
+            for (const float value : values) {
+                if (!std::isfinite(value)) {
+                    ++blank;
+                    continue;
+                }
+                ++bins[Histogram::key_of(value)];
+                least = std::min(least, value);
+                most = std::max(most, value);
+            }
+            const Histogram histogram = of(values);
+            EXPECT_EQ(histogram.blank(), blank);
+            EXPECT_EQ(histogram.valid(), count - blank);
+            EXPECT_EQ(histogram.min(), bins.empty() ? 0 : least);
+            EXPECT_EQ(histogram.max(), bins.empty() ? 0 : most);
+            std::vector<Histogram::Bin> expected;
+            for (const auto& [key, times] : bins) {
+                expected.push_back({key, times});
+            }
+            ASSERT_EQ(histogram.filled(), expected) << count;
+        }
+    });
 }
 
 TEST(Histogram, QuantilesFollowSortedData) {

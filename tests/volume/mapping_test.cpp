@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/volume/quantiser.h"
+#include "tests/support/simd_targets.h"
 
 namespace shearwater::volume {
 namespace {
@@ -107,7 +108,7 @@ void expect_same_codes(const Mapping& mapping) {
     }
 }
 
-TEST(Quantiser, EqualsTheMappingExactly) {
+void expect_the_mapping() {
     const std::pair<double, double> limits[] = {
         {0, 1},        {-0.0412, 0.157}, {1e6, 1e6 + 1},  {-3e38, 3e38}, {1e-40, 3e-40},
         {8e-16, 6e-5}, {5, 5},           {-1e-45, 1e-45}, {0.1, 0.1},    {-7, 1e30}};
@@ -121,6 +122,49 @@ TEST(Quantiser, EqualsTheMappingExactly) {
         expect_same_codes<std::uint16_t>({.lo = -0.0412, .hi = 0.157, .stretch = stretch, .bits = 16});
         expect_same_codes<std::uint16_t>({.lo = 1e-40, .hi = 3e-40, .stretch = stretch, .bits = 16});
     }
+}
+
+TEST(Quantiser, EqualsTheMappingExactly) {
+    support::for_each_target(expect_the_mapping);
+}
+
+template <class Code>
+void expect_odd_lengths(const Mapping& mapping) {
+    const Quantiser quantiser(mapping);
+    const std::vector<float> all = trying(mapping);
+    for (std::size_t count = 0; count < 100; ++count) {
+        const std::size_t shift = count % 7;
+        const std::span<const float> values = std::span(all).subspan(60000 + shift, count);
+        std::vector<Code> codes(shift + count + 1, 77);
+        quantiser.codes(values, std::span(codes).subspan(shift, count));
+        for (std::size_t i = 0; i < count; ++i) {
+            ASSERT_EQ(codes[shift + i], mapping.code(values[i])) << i << " of " << count;
+        }
+        EXPECT_EQ(codes.back(), 77);
+    }
+}
+
+TEST(Quantiser, TakesAnyNumberOfValuesAnywhere) {
+    support::for_each_target([] {
+        for (const Stretch stretch : stretches) {
+            expect_odd_lengths<std::uint8_t>({.lo = -1, .hi = 2, .stretch = stretch, .bits = 8});
+            expect_odd_lengths<std::uint16_t>({.lo = -1, .hi = 2, .stretch = stretch, .bits = 8});
+            expect_odd_lengths<std::uint16_t>({.lo = -1, .hi = 2, .stretch = stretch, .bits = 16});
+        }
+    });
+}
+
+// Limits whose distance is none, or too small or too great for a division by it.
+TEST(Quantiser, EqualsTheMappingWhereItsScaleOverflows) {
+    const std::pair<double, double> limits[] = {{-1e-310, 1e-310}, {0, 5e-324},   {-5e-324, -5e-324}, {0, 0},
+                                                {-1e308, 1.7e308}, {1e-320, 1e30}};
+    support::for_each_target([&] {
+        for (const auto& [lo, hi] : limits) {
+            for (const Stretch stretch : stretches) {
+                expect_same_codes<std::uint8_t>({.lo = lo, .hi = hi, .stretch = stretch, .bits = 8});
+            }
+        }
+    });
 }
 
 }  // namespace

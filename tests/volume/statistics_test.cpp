@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <random>
+#include <thread>
 
 namespace shearwater::volume {
 namespace {
@@ -11,15 +13,23 @@ namespace {
 // A cube whose every voxel has a value of its own, a few of them blank.
 class Formula final : public VoxelSource {
   public:
-    explicit Formula(const Index3& n) : n_(n) {}
+    explicit Formula(const Index3& n, bool concurrent = false) : n_(n), concurrent_(concurrent) {}
+
+    bool concurrent() const override { return concurrent_; }
 
     base::Status read(const Box& box, std::span<float> out) override {
         EXPECT_TRUE(whole(n_).contains(box));
         EXPECT_EQ(static_cast<std::int64_t>(out.size()), box.voxels());
+        if (++reads_ == stop_at_) {
+            stop_.request_stop();
+        }
         if (reads_left_ >= 0 && reads_left_-- == 0) {
             return base::error(base::Code::io, "read a formula", "no more");
         }
-        largest_ = std::max(largest_, out.size());
+        EXPECT_TRUE(concurrent_ || reading_++ == 0);
+        std::size_t largest = largest_;
+        while (largest < out.size() && !largest_.compare_exchange_weak(largest, out.size())) {
+        }
         std::size_t i = 0;
         for (std::int64_t z = box.lo[2]; z <= box.hi[2]; ++z) {
             for (std::int64_t y = box.lo[1]; y <= box.hi[1]; ++y) {
@@ -29,16 +39,27 @@ class Formula final : public VoxelSource {
                 }
             }
         }
+        reading_ = 0;
         return {};
     }
 
     void fail_after(int reads) { reads_left_ = reads; }
+    void stop_at(int reads, const std::stop_source& stop) {
+        stop_at_ = reads;
+        stop_ = stop;
+    }
+    int reads() const { return reads_; }
     std::size_t largest() const { return largest_; }
 
   private:
     Index3 n_;
-    int reads_left_ = -1;
-    std::size_t largest_ = 0;
+    bool concurrent_;
+    std::atomic<int> reading_{0};
+    int stop_at_ = -1;
+    std::stop_source stop_;
+    std::atomic<int> reads_{0};
+    std::atomic<int> reads_left_{-1};
+    std::atomic<std::size_t> largest_{0};
 };
 
 Histogram counted(Formula& source, const Box& box, const Index3& n, std::size_t slab_bytes = 1 << 20) {
@@ -78,6 +99,17 @@ TEST(CountValues, SlabsOfAnySizeGiveTheSame) {
     }
 }
 
+TEST(CountValues, ReadingAtOnceGivesTheSame) {
+    const Index3 n{13, 11, 7};
+    Formula source(n);
+    const Histogram expected = counted(source, whole(n), n);
+    for (const std::size_t bytes : {1UL, 60UL, 600UL, 1500UL, 1UL << 20}) {
+        Formula sliced(n, true);
+        expect_equal(counted(sliced, whole(n), n, bytes), expected);
+        EXPECT_LE(3 * sliced.largest() * sizeof(float), std::max(bytes, 3 * sizeof(float)));
+    }
+}
+
 TEST(CountValues, DivisionsAddUpToTheCube) {
     const Index3 n{13, 11, 7};
     Formula source(n);
@@ -106,30 +138,50 @@ TEST(CountValues, ThinCubesHaveTheirOnePlane) {
     EXPECT_EQ(counted(source, whole(n), n).valid(), 4U);
 }
 
-TEST(CountValues, PassesOnAFaultAndStopsWhenAsked) {
+TEST(CountValues, PassesOnAFault) {
     const Index3 n{13, 11, 7};
     base::Workers workers(2);
-    for (int reads = 0; reads < 7; ++reads) {
-        Formula source(n);
-        source.fail_after(reads);
-        const auto result = count_values(source, whole(n), n, workers, {}, {}, 13 * 11 * 4);
-        ASSERT_FALSE(result.has_value());
-        EXPECT_EQ(result.error().code, base::Code::io);
-    }
-    Formula source(n);
-    std::stop_source stop;
-    double told = 0;
-    const auto progress = [&](double share) {
-        EXPECT_GT(share, told);
-        told = share;
-        if (share > 0.5) {
-            stop.request_stop();
+    for (const bool concurrent : {false, true}) {
+        for (int reads = 0; reads < 7; ++reads) {
+            Formula source(n, concurrent);
+            source.fail_after(reads);
+            const auto result = count_values(source, whole(n), n, workers, {}, {}, 13 * 11 * 4);
+            ASSERT_FALSE(result.has_value());
+            EXPECT_EQ(result.error().code, base::Code::io);
         }
-    };
-    const auto result = count_values(source, whole(n), n, workers, progress, stop.get_token(), 13 * 11 * 4);
-    ASSERT_FALSE(result.has_value());
-    EXPECT_EQ(result.error().code, base::Code::cancelled);
-    EXPECT_LT(told, 1);
+    }
+}
+
+TEST(CountValues, TellsOfEverRisingSharesUpToTheWhole) {
+    const Index3 n{13, 11, 50};
+    base::Workers workers(3);
+    for (const bool concurrent : {false, true}) {
+        Formula source(n, concurrent);
+        double told = 0;
+        const auto progress = [&, caller = std::this_thread::get_id()](double share) {
+            EXPECT_EQ(std::this_thread::get_id(), caller);
+            EXPECT_GT(share, told);
+            told = share;
+        };
+        EXPECT_TRUE(count_values(source, whole(n), n, workers, progress, {}, 3 * 13 * 11 * 4));
+        EXPECT_EQ(told, 1);
+    }
+}
+
+TEST(CountValues, StopsWhenAsked) {
+    const Index3 n{13, 11, 50};
+    for (const int threads : {1, 3}) {
+        for (const bool concurrent : {false, true}) {
+            base::Workers workers(threads);
+            Formula source(n, concurrent);
+            std::stop_source stop;
+            source.stop_at(20, stop);
+            const auto result = count_values(source, whole(n), n, workers, {}, stop.get_token(), 13 * 11 * 4);
+            ASSERT_FALSE(result.has_value()) << threads << concurrent;
+            EXPECT_EQ(result.error().code, base::Code::cancelled);
+            EXPECT_LE(source.reads(), 20 + threads);
+        }
+    }
 }
 
 }  // namespace
