@@ -125,7 +125,7 @@ RgbaF resample(const Layer& layer, const Place& place) {
     if (std::max(top.lo, bottom.lo) <= patch.i && patch.i + 3 <= std::min(top.hi, bottom.hi)) {
         return interpolate(layer.window(), patch);
     }
-    return layer.silhouette().row(place.j).contains(place.i) ? extrapolate(layer, patch) : RgbaF{};
+    return layer.silhouette().contains(place.i, place.j) ? extrapolate(layer, patch) : RgbaF{};
 }
 
 }  // namespace shearwater::image

@@ -5,6 +5,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "common/image/resample_span.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -28,16 +29,18 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // Pixels are placed and weighed so many at a time; then each is a sum over the 16 about it, whose four rows
 // of four are 16 floats each.
-constexpr std::size_t batch = 16;
+constexpr std::size_t batch = 64;
 struct alignas(64) Batch {
     std::int32_t i[batch], j[batch];                 // the cell
+    std::int32_t first[batch], last[batch];          // of the 16, in the window
     float tx[batch], ty[batch];                      // how far into it
     float weight_x[4 * batch], weight_y[4 * batch];  // of a pixel's columns and rows
 };
 
-using Cells = hn::CappedTag<std::int32_t, batch>;
-using Floats = hn::CappedTag<float, batch>;
-using Doubles = hn::CappedTag<double, batch>;
+constexpr std::size_t widest = 16;
+using Cells = hn::CappedTag<std::int32_t, widest>;
+using Floats = hn::CappedTag<float, widest>;
+using Doubles = hn::CappedTag<double, widest>;
 using Pixel = hn::FixedTag<float, 4>;
 #if HWY_HAVE_SCALABLE
 using Taps = Pixel;
@@ -140,11 +143,27 @@ HWY_INLINE void interpolate(const float* HWY_RESTRICT taps, std::ptrdiff_t strid
     hn::StoreU(hn::Min(value, alpha), pixel, out);
 }
 
+// Where in the window the first and the last of the 16 pixels are, as far as it has them.
+HWY_INLINE void locate(const Window& window, Batch& b) {
+    const Cells d;
+    const int width = window.rect.width();
+    const auto begin = hn::Zero(d), end = hn::Set(d, width * window.rect.height() - 1);
+    for (std::size_t n = 0; n < batch; n += hn::Lanes(d)) {
+        const auto i = hn::Sub(hn::Load(d, b.i + n), hn::Set(d, window.rect.x0));
+        const auto j = hn::Sub(hn::Load(d, b.j + n), hn::Set(d, window.rect.y0));
+        const auto at = hn::Add(hn::Mul(j, hn::Set(d, width)), i);
+        const auto first = hn::Sub(at, hn::Set(d, width + 1)), last = hn::Add(at, hn::Set(d, 2 * width + 2));
+        hn::Store(hn::Min(hn::Max(first, begin), end), d, b.first + n);
+        hn::Store(hn::Min(hn::Max(last, begin), end), d, b.last + n);
+    }
+}
+
 std::size_t resample_span(const Layer& layer, const Track& track, int x0, std::span<RgbaF> out,
                           std::span<int> left) {
-    const Window& window = layer.window();
-    const float* const pixels = &window.pixels.pixels().data()->r;
-    const std::ptrdiff_t stride = std::ptrdiff_t{4} * window.rect.width();
+    // The way through the window may be down its columns, where the processor does not see what comes next.
+    constexpr std::size_t ahead = 12;
+    const RgbaF* const pixels = layer.window().pixels.pixels().data();
+    const std::ptrdiff_t stride = std::ptrdiff_t{4} * layer.window().rect.width();
     const CellRow* const rows = &layer.cell_row(-Layer::rows_above);
     std::size_t left_over = 0;
     Batch b;
@@ -153,15 +172,18 @@ std::size_t resample_span(const Layer& layer, const Track& track, int x0, std::s
         if (!any_in(layer.lit(), b)) {
             continue;
         }
+        locate(layer.window(), b);
         weigh(b.tx, b.weight_x);
         weigh(b.ty, b.weight_y);
         const std::size_t count = std::min(batch, out.size() - begin);
         for (std::size_t n = 0; n < count; ++n) {
+            const std::size_t later = std::min(n + ahead, batch - 1);
+            hwy::Prefetch(pixels + b.first[later]);
+            hwy::Prefetch(pixels + b.last[later]);
             const CellRow& row = rows[b.j[n] + Layer::rows_above];
             if (row.whole.contains(b.i[n])) {
-                const std::ptrdiff_t down = b.j[n] - 1 - window.rect.y0, along = b.i[n] - 1 - window.rect.x0;
-                interpolate(pixels + down * stride + 4 * along, stride, b.weight_x + 4 * n,
-                            b.weight_y + 4 * n, &out[begin + n].r);
+                interpolate(&pixels[b.first[n]].r, stride, b.weight_x + 4 * n, b.weight_y + 4 * n,
+                            &out[begin + n].r);
             } else if (row.lit.contains(b.i[n])) {
                 left[left_over++] = static_cast<int>(begin + n);
             }

@@ -9,6 +9,7 @@
 
 #include "common/image/over.h"
 #include "common/image/rle.h"
+#include "common/image/silhouette.h"
 #include "common/image/warp.h"
 
 namespace shearwater::image {
@@ -94,13 +95,16 @@ std::vector<Window> windows_of(const view::Factorisation& f, bool sparse) {
     const volume::Box all{{0, 0, 0}, {last(0), last(1), last(2)}};
     std::vector<Window> windows;
     for (int n = 0; n < static_cast<int>(f.faces.size()); ++n) {
-        const Rect rect = window_of(f, f.faces[static_cast<std::size_t>(n)], all);
+        const view::Face& face = f.faces[static_cast<std::size_t>(n)];
+        const Silhouette silhouette(f, face);
+        const Rect rect = window_of(f, face, all);
         windows.push_back({n, rect, {rect.width(), rect.height()}});
         for (int y = 0; y < rect.height(); ++y) {
             for (int x = 0; x < rect.width(); ++x) {
                 const double right = (x - 0.45 * rect.width()) / rect.width();
                 const double down = (y - 0.55 * rect.height()) / rect.height();
-                if (!sparse || std::hypot(right, down) < 0.18) {
+                if (silhouette.pixel_row(y + rect.y0).contains(x + rect.x0) &&
+                    (!sparse || std::hypot(right, down) < 0.18)) {
                     const auto wave = static_cast<float>(0.3 + 0.2 * std::sin(0.3 * x) * std::cos(0.2 * y));
                     windows.back().pixels.at(x, y) = {wave, 0.5F * wave, 0.2F, 0.6F};
                 }
