@@ -67,8 +67,11 @@ HWY_INLINE void place(const Track& track, double first, const view::Face& face, 
         const auto along = [&](double start, double step)
                                HWY_ATTR { return hn::MulAdd(px, hn::Set(d, step), hn::Set(d, start)); };
         const auto unit = hn::Div(hn::Set(d, 1), along(track.w, track.w_x));
-        place(hn::Mul(along(track.i, track.i_x), unit), face.width, b.i + n, b.tx + n);
-        place(hn::Mul(along(track.j, track.j_x), unit), face.height, b.j + n, b.ty + n);
+        const auto rounder = hn::Set(d, Track::rounder);
+        const auto i = hn::Sub(hn::MulAdd(along(track.i, track.i_x), unit, rounder), rounder);
+        const auto j = hn::Sub(hn::MulAdd(along(track.j, track.j_x), unit, rounder), rounder);
+        place(i, face.width, b.i + n, b.tx + n);
+        place(j, face.height, b.j + n, b.ty + n);
     }
 }
 

@@ -57,21 +57,7 @@ class Finder {
         return layers_[side] && !layers_[side]->lit().empty() ? &*layers_[side] : nullptr;
     }
 
-    // Of a point whose ray goes through the layer's face.
-    Place place(const Layer& layer, double px, double py) const {
-        const Face& face = layer.face();
-        const Vec3 direction = perspective() ? rays_.direction_at(px, py) : factorisation_.direction;
-        double at_u = direction[face.u_axis()] / direction[face.axis];
-        double at_v = direction[face.v_axis()] / direction[face.axis];
-        if (!perspective()) {
-            const Vec3 origin = rays_.origin_at(px, py);
-            at_u = origin[face.u_axis()] - at_u * origin[face.axis];
-            at_v = origin[face.v_axis()] - at_v * origin[face.axis];
-        }
-        return {(at_u - face.origin.x) / face.pitch.x, (at_v - face.origin.y) / face.pitch.y};
-    }
-
-    // The same for the whole of a row.
+    // Of a row of points whose rays go through the layer's face.
     Track track(const Layer& layer, double py) const {
         const Face& face = layer.face();
         const int u = face.u_axis(), v = face.v_axis(), w = face.axis;
@@ -120,9 +106,10 @@ void warp_row(const Finder& finder, int y, std::span<RgbaF> row, std::span<int> 
             continue;
         }
         const auto part = row.subspan(static_cast<std::size_t>(x), static_cast<std::size_t>(end - x));
-        const std::size_t count = resample_span(*layer, finder.track(*layer, y + 0.5), x, part, left);
+        const Track track = finder.track(*layer, y + 0.5);
+        const std::size_t count = resample_span(*layer, track, x, part, left);
         for (const int n : left.first(count)) {
-            part[static_cast<std::size_t>(n)] = resample(*layer, finder.place(*layer, x + n + 0.5, y + 0.5));
+            part[static_cast<std::size_t>(n)] = resample(*layer, track.at(x + n + 0.5));
         }
     }
 }
