@@ -1,14 +1,15 @@
-// What is written with vectors gives what its definition gives, on every set of instructions at hand.
+// Loops over pixels give what one pixel's formula gives, on every set of instructions at hand, for any number
+// of pixels from any address on, and touch no others.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include "common/image/finish.h"
-#include "common/image/layer.h"
-#include "common/image/resample.h"
-#include "common/image/resample_span.h"
+#include "common/image/over.h"
+#include "common/image/rle.h"
 #include "tests/support/every_target.h"
 
 namespace shearwater::image {
@@ -22,141 +23,103 @@ RgbaF random_pixel(std::mt19937& random) {
     return {a * unit(random), a * unit(random), a * unit(random), a};
 }
 
-void expect_near(const RgbaF& p, const RgbaF& q, float tolerance, const std::string& what) {
-    ASSERT_NEAR(p.r, q.r, tolerance) << what;
-    ASSERT_NEAR(p.g, q.g, tolerance) << what;
-    ASSERT_NEAR(p.b, q.b, tolerance) << what;
-    ASSERT_NEAR(p.a, q.a, tolerance) << what;
+// Some of them transparent, or out of what a pixel can be.
+std::vector<RgbaF> random_pixels(std::mt19937& random, std::size_t count) {
+    std::vector<RgbaF> pixels(count);
+    for (RgbaF& pixel : pixels) {
+        const auto kind = random() % 8;
+        pixel = kind == 0 ? RgbaF{} : kind == 1 ? RgbaF{-0.5F, 1.5F, 1, 2} : random_pixel(random);
+    }
+    return pixels;
 }
 
-// A face seen from in front of it, and a window of it with noise in an oval, transparent in its corners.
-class ResampleSpan : public testing::Test {
-  protected:
-    ResampleSpan() : f_(view::factorise(view::camera_on({}, lattice_), {90, 70}, lattice_, 1)) {}
-
-    Window window(const Rect& rect) const {
-        std::mt19937 random(3);
-        Window window{.face = 0, .rect = rect, .pixels = {rect.width(), rect.height()}};
-        for (int y = 0; y < rect.height(); ++y) {
-            for (int x = 0; x < rect.width(); ++x) {
-                const double right = 2.0 * x / rect.width() - 1, down = 2.0 * y / rect.height() - 1;
-                window.pixels.at(x, y) = std::hypot(right, down) < 1 ? random_pixel(random) : RgbaF{};
-            }
-        }
-        return window;
+std::vector<Rgba16> random_levels(std::mt19937& random, std::size_t count) {
+    std::vector<Rgba16> levels(count);
+    for (Rgba16& pixel : levels) {
+        const auto level = [&] { return static_cast<std::uint16_t>(random()); };
+        pixel = {level(), level(), level(), random() % 4 == 0 ? std::uint16_t{65535} : level()};
     }
+    return levels;
+}
 
-    // A row's numbers that resample_span leaves to resample.
-    std::size_t compare(const Layer& layer, const Track& track, int x0, std::size_t width,
-                        std::size_t offset) {
-        std::vector<RgbaF> row(offset + width);
-        std::vector<int> left(width);
-        const auto out = std::span(row).subspan(offset);
-        const std::size_t count = resample_span(layer, track, x0, out, left);
-        std::vector<bool> is_left(width);
-        for (const int n : std::span(left).first(count)) {
-            is_left[static_cast<std::size_t>(n)] = true;
-        }
-        for (std::size_t n = 0; n < width; ++n) {
-            const Place place = track.at(x0 + static_cast<double>(n) + 0.5);
-            expect_near(out[n], is_left[n] ? RgbaF{} : resample(layer, place), 2e-6F,
-                        std::to_string(place.i) + ", " + std::to_string(place.j));
-        }
-        return count;
-    }
+double channel(const RgbaF& p, int c) {
+    return static_cast<double>(c == 0 ? p.r : c == 1 ? p.g : c == 2 ? p.b : p.a);
+}
+double channel(const Rgba16& p, int c) {
+    return (c == 0 ? p.r : c == 1 ? p.g : c == 2 ? p.b : p.a) / 65535.0;
+}
 
-    base::Workers workers_{1};
-    view::Lattice lattice_{{50, 40, 60}, {1, 1.2, 0.8}};
-    view::Factorisation f_;
-};
-
-TEST_F(ResampleSpan, GivesWhatResampleGives) {
-    const view::Face& face = f_.faces.at(0);
-    const int w = face.width, h = face.height;
+// Calls body(random, width) with every target, for all small widths and some larger.
+void for_widths(const std::function<void(std::mt19937&, std::size_t)>& body) {
     for_every_target([&](const std::string& target) {
         SCOPED_TRACE(target);
-        std::mt19937 random(4);
-        std::uniform_real_distribution<double> unit(0, 1);
-        std::size_t points = 0, left = 0;
-        for (const Rect& rect : {Rect{0, 0, w, h}, Rect{w / 4, h / 3, w - 5, h - 9}, Rect{20, 20, 23, 22}}) {
-            const Window noise = window(rect);
-            const Layer layer(f_, noise, workers_);
-            for (int round = 0; round < 200; ++round) {
-                // From one point about the face to another, or far outside, with or without perspective.
-                const std::size_t width = 1 + random() % 150;
-                const double reach = round % 10 == 0 ? 1e7 : 1, steps = static_cast<double>(width);
-                const Place from{(1.4 * unit(random) - 0.2) * w, (1.4 * unit(random) - 0.2) * h};
-                const Place to{(1.4 * unit(random) - 0.2) * w * reach, (1.4 * unit(random) - 0.2) * h};
-                const double far = round % 2 == 0 ? 1 : 0.5 + unit(random);
-                const int x0 = static_cast<int>(random() % 50);
-                Track track{.i_x = (to.i * far - from.i) / steps,
-                            .j_x = (to.j * far - from.j) / steps,
-                            .w_x = (far - 1) / steps};
-                track.i = from.i - x0 * track.i_x;
-                track.j = from.j - x0 * track.j_x;
-                track.w = 1 - x0 * track.w_x;
-                left += compare(layer, track, x0, width, random() % 4);
-                points += width;
-                if (HasFatalFailure()) {
-                    return;
-                }
-            }
+        std::mt19937 random(6);
+        for (std::size_t width = 0; width < 300; width += width < 40 ? 1 : 37) {
+            body(random, width);
         }
-        EXPECT_LT(left, points / 4) << "most is for the kernel";
     });
 }
 
-// What resample_span may do by itself, and what it may leave out.
-TEST_F(ResampleSpan, CellsAreSortedByWhatTheyNeed) {
-    const view::Face& face = f_.faces.at(0);
-    const Rect rect{3, 5, face.width - 11, face.height - 4};
-    const Window noise = window(rect);
-    const Layer layer(f_, noise, workers_);
-    const auto pixel = [&](int i, int j) {
-        const bool has = rect.x0 <= i && i < rect.x1 && rect.y0 <= j && j < rect.y1;
-        return has ? noise.pixels.at(i - rect.x0, j - rect.y0) : RgbaF{};
-    };
-    int whole = 0;
-    for (int j = -1; j < face.height; ++j) {
-        for (int i = -1; i < face.width; ++i) {
-            bool lit = false, inside = true;
-            for (int n = 0; n < 16; ++n) {
-                const int x = i - 1 + n % 4, y = j - 1 + n / 4;
-                lit = lit || pixel(x, y).a > 0;
-                inside = inside && rect.x0 <= x && x < rect.x1 && rect.y0 <= y && y < rect.y1 &&
-                         layer.silhouette().pixel_row(y).contains(x);
+template <class Pixel>
+void expect_over(const std::vector<RgbaF>& before, const std::vector<Pixel>& back, std::size_t at,
+                 std::size_t width) {
+    auto front = before;
+    over(std::span(front).subspan(at, width), std::span(back).subspan(at + 1, width));
+    for (std::size_t n = 0; n < front.size(); ++n) {
+        for (int c = 0; c < 4; ++c) {
+            const bool within = at <= n && n < at + width;
+            const double through = within ? 1 - channel(before[n], 3) : 0;
+            const double behind = within ? channel(back[n + 1], c) : 0;
+            ASSERT_NEAR(channel(front[n], c), channel(before[n], c) + through * behind, 1e-6) << n;
+        }
+    }
+}
+
+TEST(Kernels, OverFollowsItsEquations) {
+    for_widths([](std::mt19937& random, std::size_t width) {
+        const auto front = random_pixels(random, width + 3);
+        expect_over(front, random_pixels(random, width + 4), random() % 3, width);
+        expect_over(front, random_levels(random, width + 4), random() % 3, width);
+    });
+}
+
+TEST(Kernels, SixteenBitsAreTheNearestLevelAndBack) {
+    for_widths([](std::mt19937& random, std::size_t width) {
+        const auto pixels = random_pixels(random, width + 1);
+        const Rgba16 untouched{1, 2, 3, 4};
+        std::vector<Rgba16> levels(width + 2, untouched);
+        to_16_bits(std::span(pixels).subspan(1), std::span(levels).subspan(1, width));
+        std::vector<RgbaF> back(width + 2, RgbaF{1, 2, 3, 4});
+        from_16_bits(std::span(levels).subspan(1, width), std::span(back).subspan(1, width));
+        for (std::size_t n = 1; n <= width; ++n) {
+            for (int c = 0; c < 4; ++c) {
+                const double wanted = std::clamp(channel(pixels[n], c), 0.0, 1.0);
+                // A float has no more than 8 bits for what is below a level.
+                ASSERT_NEAR(channel(levels[n], c), wanted, 0.504 / 65535) << n;
+                ASSERT_NEAR(channel(back[n], c), channel(levels[n], c), 1e-7) << n;
             }
-            const CellRow& row = layer.cell_row(j);
-            ASSERT_TRUE(row.lit.contains(i) || !lit) << i << ", " << j;
-            ASSERT_TRUE(inside || !row.whole.contains(i)) << i << ", " << j;
-            ASSERT_TRUE(row.whole.contains(i) || !inside || !lit) << i << ", " << j;
-            whole += row.whole.contains(i) ? 1 : 0;
         }
-    }
-    EXPECT_GT(whole, 1000);
+        ASSERT_TRUE(levels.front() == untouched && levels.back() == untouched);
+        ASSERT_TRUE(back.front().g == 2 && back.back().g == 2);
+    });
 }
 
-TEST_F(ResampleSpan, TheOutlineIsTheSameByTheShortWay) {
-    const view::Face& face = f_.faces.at(0);
-    const Silhouette silhouette(f_, face);
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> unit(0, 1);
-    int inside = 0;
-    for (int round = 0; round < 200000; ++round) {
-        double i = -1 + unit(random) * (face.width + 1);
-        const double j = -1 + unit(random) * (face.height + 1);
-        const Stretch row = silhouette.row(j);
-        if (round % 2 == 0 && row.lo < row.hi) {
-            i = (round % 4 == 0 ? row.lo : row.hi) + 0.02 * (unit(random) - 0.5);
+TEST(Kernels, EveryLevelComesBack) {
+    for_every_target([](const std::string& target) {
+        std::vector<Rgba16> levels(65536);
+        for (std::size_t n = 0; n < levels.size(); ++n) {
+            const auto level = static_cast<std::uint16_t>(n);
+            levels[n] = {level, static_cast<std::uint16_t>(65535 - level), 0, level};
         }
-        ASSERT_EQ(silhouette.contains(i, j), row.contains(i)) << i << ", " << j;
-        inside += row.contains(i) ? 1 : 0;
-    }
-    EXPECT_GT(inside, 50000);
-    EXPECT_LT(inside, 150000);
+        std::vector<RgbaF> floats(levels.size());
+        std::vector<Rgba16> again(levels.size());
+        from_16_bits(levels, floats);
+        to_16_bits(floats, again);
+        EXPECT_EQ(levels, again) << target;
+    });
 }
 
-TEST(Finish, IsTheNearestLevelOverTheBackground) {
+TEST(Kernels, FinishGivesTheNearestLevelOverTheBackground) {
     const view::Rgb background{0.1, 0.7, 1};
     for_every_target([&](const std::string& target) {
         SCOPED_TRACE(target);
@@ -179,6 +142,74 @@ TEST(Finish, IsTheNearestLevelOverTheBackground) {
             }
             ASSERT_EQ(to.front(), (Rgba8{1, 2, 3, 4}));
             ASSERT_EQ(to[width + 1], (Rgba8{1, 2, 3, 4}));
+        }
+    });
+}
+
+// The format, written down as plainly as can be.
+std::vector<std::byte> coded_plainly(std::span<const Rgba8> pixels) {
+    std::vector<std::byte> out;
+    const auto put = [&](std::size_t value) { out.push_back(static_cast<std::byte>(value)); };
+    const auto put_colour = [&](const Rgba8& p) { put(p.r), put(p.g), put(p.b); };
+    const auto run_at = [&](std::size_t i) {
+        std::size_t n = 1;
+        while (i + n < pixels.size() && n < 66 + 0x3fff && pixels[i + n].r == pixels[i].r &&
+               pixels[i + n].g == pixels[i].g && pixels[i + n].b == pixels[i].b) {
+            ++n;
+        }
+        return n;
+    };
+    for (std::size_t i = 0; i < pixels.size();) {
+        if (const std::size_t run = run_at(i); run >= 66) {
+            put(0xc0 | ((run - 66) >> 8)), put((run - 66) & 0xff), put_colour(pixels[i]);
+            i += run;
+        } else if (run >= 2) {
+            put(0x80 | (run - 2)), put_colour(pixels[i]);
+            i += run;
+        } else {
+            std::size_t n = 1;
+            while (i + n < pixels.size() && n < 128 && run_at(i + n) == 1) {
+                ++n;
+            }
+            put(n - 1);
+            for (; n > 0; --n) {
+                put_colour(pixels[i++]);
+            }
+        }
+    }
+    return out;
+}
+
+// Few colours that differ in one channel each, at every density of runs; alpha is anything.
+std::vector<Rgba8> random_picture(std::mt19937& random) {
+    std::vector<Rgba8> pixels;
+    const auto longest = std::vector<std::size_t>{1, 3, 40, 300, 20000}[random() % 5];
+    const auto runs = random() % (longest > 1000 ? 4 : 300);
+    for (unsigned run = 0; run < runs; ++run) {
+        const auto bit = [&] { return static_cast<std::uint8_t>(random() % 2); };
+        const Rgba8 colour{bit(), bit(), bit(), 255};
+        for (std::size_t n = 1 + random() % longest; n > 0; --n) {
+            pixels.push_back({colour.r, colour.g, colour.b, static_cast<std::uint8_t>(random())});
+        }
+    }
+    return pixels;
+}
+
+TEST(Kernels, RunLengthsAreTheFormatToTheByte) {
+    for_every_target([](const std::string& target) {
+        SCOPED_TRACE(target);
+        std::mt19937 random(8);
+        for (int round = 0; round < 300; ++round) {
+            const auto pixels = random_picture(random);
+            std::vector<std::byte> bytes(rle_bound(pixels.size()));
+            bytes.resize(encode_rle(pixels, bytes));
+            ASSERT_EQ(bytes, coded_plainly(pixels));
+            std::vector<Rgba8> back(pixels.size() + 2);
+            ASSERT_TRUE(decode_rle(bytes, std::span(back).subspan(1, pixels.size())));
+            for (std::size_t n = 0; n < pixels.size(); ++n) {
+                ASSERT_EQ(back[n + 1], (Rgba8{pixels[n].r, pixels[n].g, pixels[n].b, 255})) << n;
+            }
+            ASSERT_TRUE(back.front() == Rgba8{} && back.back() == Rgba8{});
         }
     });
 }
