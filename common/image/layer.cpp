@@ -1,6 +1,8 @@
 #include "common/image/layer.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 namespace shearwater::image {
@@ -18,15 +20,29 @@ Range bounding(const Range& a, const Range& b) {
     return {std::min(a.first, b.first), std::max(a.end, b.end)};
 }
 
-bool is_lit(const RgbaF& pixel) {
-    return pixel.r != 0 || pixel.g != 0 || pixel.b != 0 || pixel.a != 0;
+bool is_lit(std::span<const RgbaF> pixels) {
+    std::uint64_t bits = 0;
+    for (const RgbaF& pixel : pixels) {
+        const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(pixel);
+        bits |= halves[0] | halves[1];
+    }
+    return bits != 0;
 }
 
-// From the first pixel that is not transparent to the last.
+// From the first pixel that is not transparent to the last. Most of those that are go a block at a time.
 Range lit_of(std::span<const RgbaF> row) {
-    const auto first = std::find_if(row.begin(), row.end(), is_lit);
-    const auto end = std::find_if(row.rbegin(), std::make_reverse_iterator(first), is_lit).base();
-    return {static_cast<int>(first - row.begin()), static_cast<int>(end - row.begin())};
+    for (const std::size_t block : {std::size_t{16}, std::size_t{1}}) {
+        while (row.size() >= block && !is_lit(row.last(block))) {
+            row = row.first(row.size() - block);
+        }
+    }
+    const std::size_t end = row.size();
+    for (const std::size_t block : {std::size_t{16}, std::size_t{1}}) {
+        while (row.size() >= block && !is_lit(row.first(block))) {
+            row = row.subspan(block);
+        }
+    }
+    return {static_cast<int>(end - row.size()), static_cast<int>(end)};
 }
 
 }  // namespace

@@ -14,27 +14,33 @@ std::span<const Rgba16> row_of(const WindowView16& window, int y) {
     return window.pixels.subspan(static_cast<std::size_t>(y) * width, width);
 }
 
+// Row by row, so that a row is in the processor's cache from its first window to its last.
 template <class AnyWindow>
-void merge_into(Window& merged, const AnyWindow& behind) {
-    const auto x = static_cast<std::size_t>(behind.rect.x0 - merged.rect.x0);
-    const auto width = static_cast<std::size_t>(behind.rect.width());
-    for (int y = 0; y < behind.rect.height(); ++y) {
-        const auto row = merged.pixels.row(y + behind.rect.y0 - merged.rect.y0).subspan(x, width);
-        over(row, row_of(behind, y));
+Image<RgbaF> merge_face(int face, const Rect& rect, std::span<const AnyWindow> windows) {
+    Image<RgbaF> merged(rect.width(), rect.height(), Unfilled());
+    for (int y = rect.y0; y < rect.y1; ++y) {
+        const std::span<RgbaF> row = merged.row(y - rect.y0);
+        std::fill(row.begin(), row.end(), RgbaF{});
+        for (const AnyWindow& behind : windows) {
+            if (behind.face == face && !behind.rect.empty() && behind.rect.y0 <= y && y < behind.rect.y1) {
+                const auto x = static_cast<std::size_t>(behind.rect.x0 - rect.x0);
+                const auto pixels = row_of(behind, y - behind.rect.y0);
+                over(row.subspan(x, pixels.size()), pixels);
+            }
+        }
     }
+    return merged;
 }
 
 template <class AnyWindow>
 std::vector<Window> merge(std::span<const AnyWindow> windows) {
     std::vector<Window> merged;
-    const auto of_face = [&](int face) {
-        return std::find_if(merged.begin(), merged.end(), [face](const Window& w) { return w.face == face; });
-    };
     for (const AnyWindow& window : windows) {
         if (window.rect.empty()) {
             continue;
         }
-        const auto found = of_face(window.face);
+        const auto found = std::find_if(merged.begin(), merged.end(),
+                                        [&](const Window& other) { return other.face == window.face; });
         if (found == merged.end()) {
             merged.push_back({.face = window.face, .rect = window.rect});
         } else {
@@ -42,12 +48,7 @@ std::vector<Window> merge(std::span<const AnyWindow> windows) {
         }
     }
     for (Window& window : merged) {
-        window.pixels = Image<RgbaF>(window.rect.width(), window.rect.height());
-    }
-    for (const AnyWindow& window : windows) {
-        if (!window.rect.empty()) {
-            merge_into(*of_face(window.face), window);
-        }
+        window.pixels = merge_face(window.face, window.rect, windows);
     }
     return merged;
 }

@@ -132,7 +132,7 @@ void for_each_row(const view::ImageSize& size, base::Workers& workers, const Bod
 Image<Rgba8> warp(const Factorisation& factorisation, std::span<const Window> windows,
                   const view::Camera& camera, const view::ImageSize& size, const view::Rgb& background,
                   base::Workers& workers) {
-    Image<Rgba8> picture(size.width, size.height);
+    Image<Rgba8> picture(size.width, size.height, Unfilled());
     const Finder finder(factorisation, windows, camera, size, workers);
     for_each_row(size, workers, [&](int y, std::span<int> left) {
         std::vector<RgbaF> row(static_cast<std::size_t>(size.width));
