@@ -31,18 +31,18 @@ bool is_lit(std::span<const RgbaF> pixels) {
 
 // From the first pixel that is not transparent to the last. Most of those that are go a block at a time.
 Range lit_of(std::span<const RgbaF> row) {
+    std::size_t begin = 0, end = row.size();
     for (const std::size_t block : {std::size_t{16}, std::size_t{1}}) {
-        while (row.size() >= block && !is_lit(row.last(block))) {
-            row = row.first(row.size() - block);
+        while (begin + block <= end && !is_lit(row.subspan(begin, block))) {
+            begin += block;
         }
     }
-    const std::size_t end = row.size();
     for (const std::size_t block : {std::size_t{16}, std::size_t{1}}) {
-        while (row.size() >= block && !is_lit(row.first(block))) {
-            row = row.subspan(block);
+        while (begin + block <= end && !is_lit(row.subspan(end - block, block))) {
+            end -= block;
         }
     }
-    return {static_cast<int>(end - row.size()), static_cast<int>(end)};
+    return {static_cast<int>(begin), static_cast<int>(end)};
 }
 
 }  // namespace
