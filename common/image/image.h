@@ -1,6 +1,7 @@
 #pragma once
 // Pixels and the images and windows made of them. All colours are premultiplied by opacity.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -27,13 +28,21 @@ struct Rgba8 {
     bool operator==(const Rgba8&) const = default;
 };
 
-// A dense image, row 0 first, move-only, zeroed. Functions take Image& or spans of rows.
+// For an image that is written to from end to end: its pixels are not made transparent first.
+struct Unfilled {};
+
+// A dense image, row 0 first, move-only, zeroed unless told otherwise. Functions take Image& or spans of rows.
 template <class Pixel>
 class Image {
   public:
     Image() = default;
-    Image(int width, int height)
-        : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+    Image(int width, int height) : Image(width, height, Unfilled()) {
+        std::fill(pixels_.begin(), pixels_.end(), Pixel{});
+    }
+    Image(int width, int height, Unfilled)
+        : width_(width),
+          height_(height),
+          pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
     Image(Image&&) noexcept = default;
     Image& operator=(Image&&) noexcept = default;
     Image(const Image&) = delete;
@@ -55,11 +64,22 @@ class Image {
     }
 
   private:
+    // Leaves elements without a value as the memory was.
+    template <class T>
+    struct Memory : std::allocator<T> {
+        template <class U>
+        struct rebind {
+            using other = Memory<U>;
+        };
+        void construct(T*) noexcept {}
+        void construct(T* at, const T& value) noexcept { std::construct_at(at, value); }
+    };
+
     std::size_t start(int y) const { return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_); }
 
     int width_ = 0;
     int height_ = 0;
-    std::vector<Pixel> pixels_;
+    std::vector<Pixel, Memory<Pixel>> pixels_;
 };
 
 // The part of one face's intermediate image that a box projects to. rect is in the face's pixels and of

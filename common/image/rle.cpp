@@ -1,173 +1,199 @@
 #include "common/image/rle.h"
 
-#include <zlib.h>
-
 #include <algorithm>
-#include <array>
+#include <cstring>
 
-namespace shearwater::image {
+#include "common/image/rle_parts.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "common/image/rle.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace shearwater::image::HWY_NAMESPACE {
 namespace {
 
-// A coded picture is a sequence of
-//   0nnnnnnn                     n + 1 pixels follow, 3 bytes each
-//   10nnnnnn           r g b     n + 2 times one pixel
-//   11nnnnnn nnnnnnnn  r g b     n + 66 times one pixel (the high bits first)
-// A run saves at least two bytes and begins at most one more stretch, so runs never make a picture larger
-// than plain stretches do: that is the bound.
-constexpr std::size_t longest_stretch = 128;
-constexpr std::size_t shortest_run = 2;
-constexpr std::size_t shortest_long_run = 66;
-constexpr std::size_t longest_run = shortest_long_run + 0x3fff;
-constexpr std::size_t colour_bytes = 3;
+// Five loops over pixels, the first and plain one of each pair being the definition; where vectors do one,
+// they do as much as fills them, and leave the rest to it.
 
-bool same_colour(const Rgba8& a, const Rgba8& b) {
-    return a.r == b.r && a.g == b.g && a.b == b.b;
+// The first of [i, end) that is like the one after it, which is below `end` too; or `end`.
+std::size_t plain_pair(const Rgba8* pixels, std::size_t i, std::size_t end) {
+    for (; i + 1 < end; ++i) {
+        if (rle::same_colour(pixels[i], pixels[i + 1])) {
+            return i;
+        }
+    }
+    return end;
 }
 
-class Writer {
-  public:
-    explicit Writer(std::span<std::byte> out) : out_(out) {}
-
-    void run(const Rgba8& pixel, std::size_t count) {
-        if (count < shortest_long_run) {
-            put(0x80 | (count - shortest_run));
-        } else {
-            put(0xc0 | ((count - shortest_long_run) >> 8));
-            put((count - shortest_long_run) & 0xff);
-        }
-        colour(pixel);
-    }
-
-    void stretch(std::span<const Rgba8> pixels) {
-        for (std::size_t i = 0; i < pixels.size(); i += longest_stretch) {
-            const auto part = pixels.subspan(i, std::min(longest_stretch, pixels.size() - i));
-            put(part.size() - 1);
-            for (const Rgba8& pixel : part) {
-                colour(pixel);
-            }
-        }
-    }
-
-    std::size_t written() const { return at_; }
-
-  private:
-    void put(std::size_t value) { out_[at_++] = static_cast<std::byte>(value); }
-    void colour(const Rgba8& pixel) {
-        put(pixel.r);
-        put(pixel.g);
-        put(pixel.b);
-    }
-
-    std::span<std::byte> out_;
-    std::size_t at_ = 0;
-};
-
-// How many pixels from `first` on are one colour, at most longest_run.
-std::size_t run_length(std::span<const Rgba8> pixels, std::size_t first) {
-    const std::size_t end = std::min(pixels.size(), first + longest_run);
-    std::size_t i = first + 1;
-    while (i < end && same_colour(pixels[i], pixels[first])) {
+// The first of [i, end) that is not like `pixel`, or `end`.
+std::size_t plain_run_end(const Rgba8* pixels, std::size_t i, std::size_t end, const Rgba8& pixel) {
+    while (i < end && rle::same_colour(pixels[i], pixel)) {
         ++i;
     }
-    return i - first;
+    return i;
 }
 
-base::Error broken(std::string detail) {
-    return base::error(base::Code::corrupt, "decode picture", std::move(detail));
-}
-
-// What one control byte (and the one after, for a long run) announces.
-struct Part {
-    bool is_run = false;
-    std::size_t pixels = 0;
-    std::size_t control_bytes = 1;
-
-    std::size_t bytes() const { return control_bytes + colour_bytes * (is_run ? 1 : pixels); }
-};
-
-Part part_at(std::span<const std::byte> bytes) {
-    const auto control = std::to_integer<std::size_t>(bytes[0]);
-    if (control < 0x80) {
-        return {false, control + 1, 1};
-    }
-    if (control < 0xc0) {
-        return {true, (control & 0x3f) + shortest_run, 1};
-    }
-    const std::size_t low = bytes.size() > 1 ? std::to_integer<std::size_t>(bytes[1]) : 0;
-    return {true, (((control & 0x3f) << 8) | low) + shortest_long_run, 2};
-}
-
-Rgba8 colour_at(std::span<const std::byte> bytes) {
-    return {std::to_integer<std::uint8_t>(bytes[0]), std::to_integer<std::uint8_t>(bytes[1]),
-            std::to_integer<std::uint8_t>(bytes[2]), 255};
-}
-
-// zlib counts input in 32 bits: hands it over piece by piece.
-void feed(z_stream& stream, std::span<const std::byte>& rest) {
-    constexpr std::size_t piece = std::size_t{1} << 30;
-    if (stream.avail_in == 0 && !rest.empty()) {
-        const std::size_t take = std::min(piece, rest.size());
-        stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(rest.data()));
-        stream.avail_in = static_cast<uInt>(take);
-        rest = rest.subspan(take);
+void plain_pack(const Rgba8* from, std::size_t count, std::byte* to) {
+    for (std::size_t i = 0; i < count; ++i) {
+        to = rle::put_colour(from[i], to);
     }
 }
 
-struct Inflater {
-    z_stream stream{};
-    bool ready = inflateInit(&stream) == Z_OK;
+void plain_unpack(const std::byte* from, std::size_t count, Rgba8* to) {
+    for (std::size_t i = 0; i < count; ++i) {
+        to[i] = rle::colour_at(from + rle::colour_bytes * i);
+    }
+}
 
-    Inflater() = default;
-    Inflater(const Inflater&) = delete;
-    Inflater& operator=(const Inflater&) = delete;
-    ~Inflater() {
-        if (ready) {
-            inflateEnd(&stream);
+void plain_fill(Rgba8* to, std::size_t count, const Rgba8& pixel) {
+    std::fill_n(to, count, pixel);
+}
+
+#if HWY_TARGET == HWY_SCALAR
+
+std::size_t find_pair(const Rgba8* pixels, std::size_t i, std::size_t end) {
+    return plain_pair(pixels, i, end);
+}
+std::size_t run_end(const Rgba8* pixels, std::size_t i, std::size_t end, const Rgba8& pixel) {
+    return plain_run_end(pixels, i, end, pixel);
+}
+void pack(const Rgba8* from, std::size_t count, std::byte* to) {
+    plain_pack(from, count, to);
+}
+void unpack(const std::byte* from, std::size_t count, Rgba8* to) {
+    plain_unpack(from, count, to);
+}
+void fill(Rgba8* to, std::size_t count, const Rgba8& pixel) {
+    plain_fill(to, count, pixel);
+}
+
+#else
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Pixels = hn::ScalableTag<std::uint32_t>;
+using Bytes = hn::Repartition<std::uint8_t, Pixels>;
+
+// A pixel's four bytes in a lane.
+HWY_INLINE hn::Vec<Pixels> all_like(const Rgba8& pixel) {
+    std::uint32_t lane = 0;
+    std::memcpy(&lane, &pixel, sizeof lane);
+    return hn::Set(Pixels(), lane);
+}
+
+// Without their alpha.
+HWY_INLINE hn::Vec<Pixels> colours(const Rgba8* from) {
+    return hn::And(hn::BitCast(Pixels(), hn::LoadU(Bytes(), &from->r)), all_like({255, 255, 255, 0}));
+}
+
+std::size_t find_pair(const Rgba8* pixels, std::size_t i, std::size_t end) {
+    const Pixels d;
+    const std::size_t step = hn::Lanes(d);
+    for (; i + step + 1 <= end; i += step) {
+        const auto like = hn::Eq(colours(pixels + i), colours(pixels + i + 1));
+        if (const auto first = hn::FindFirstTrue(d, like); first >= 0) {
+            return i + static_cast<std::size_t>(first);
         }
     }
-};
-
-}  // namespace
-
-std::size_t rle_bound(std::size_t pixels) {
-    return colour_bytes * pixels + (pixels + longest_stretch - 1) / longest_stretch;
+    return plain_pair(pixels, i, end);
 }
 
-std::size_t encode_rle(std::span<const Rgba8> pixels, std::span<std::byte> out) {
-    base::check(out.size() >= rle_bound(pixels.size()), "the output holds the bound");
-    Writer writer(out);
-    std::size_t stretch_begin = 0;
+std::size_t run_end(const Rgba8* pixels, std::size_t i, std::size_t end, const Rgba8& pixel) {
+    const Pixels d;
+    const std::size_t step = hn::Lanes(d);
+    const auto like = all_like({pixel.r, pixel.g, pixel.b, 0});
+    for (; i + step <= end; i += step) {
+        const auto other = hn::Ne(colours(pixels + i), like);
+        if (const auto first = hn::FindFirstTrue(d, other); first >= 0) {
+            return i + static_cast<std::size_t>(first);
+        }
+    }
+    return plain_run_end(pixels, i, end, pixel);
+}
+
+void pack(const Rgba8* from, std::size_t count, std::byte* to) {
+    const Bytes d;
+    const std::size_t step = hn::Lanes(d);
     std::size_t i = 0;
-    while (i < pixels.size()) {
-        const std::size_t count = run_length(pixels, i);
-        if (count >= shortest_run) {
-            writer.stretch(pixels.subspan(stretch_begin, i - stretch_begin));
-            writer.run(pixels[i], count);
-            stretch_begin = i + count;
-        }
-        i += count;
+    for (; i + step <= count; i += step) {
+        hn::Vec<Bytes> r, g, b, a;
+        hn::LoadInterleaved4(d, &from[i].r, r, g, b, a);
+        hn::StoreInterleaved3(r, g, b, d, reinterpret_cast<std::uint8_t*>(to + rle::colour_bytes * i));
     }
-    writer.stretch(pixels.subspan(stretch_begin));
-    return writer.written();
+    plain_pack(from + i, count - i, to + rle::colour_bytes * i);
 }
 
-base::Status decode_rle(std::span<const std::byte> bytes, std::span<Rgba8> pixels) {
+void unpack(const std::byte* from, std::size_t count, Rgba8* to) {
+    const Bytes d;
+    const std::size_t step = hn::Lanes(d);
+    std::size_t i = 0;
+    for (; i + step <= count; i += step) {
+        hn::Vec<Bytes> r, g, b;
+        hn::LoadInterleaved3(d, reinterpret_cast<const std::uint8_t*>(from + rle::colour_bytes * i), r, g, b);
+        hn::StoreInterleaved4(r, g, b, hn::Set(d, 255), d, &to[i].r);
+    }
+    plain_unpack(from + rle::colour_bytes * i, count - i, to + i);
+}
+
+void fill(Rgba8* to, std::size_t count, const Rgba8& pixel) {
+    const auto all = hn::BitCast(Bytes(), all_like(pixel));
+    const std::size_t step = hn::Lanes(Pixels());
+    std::size_t i = 0;
+    for (; i + step <= count; i += step) {
+        hn::StoreU(all, Bytes(), &to[i].r);
+    }
+    plain_fill(to + i, count - i, pixel);
+}
+
+#endif
+
+std::byte* put_stretch(const Rgba8* pixels, std::size_t count, std::byte* to) {
+    while (count > 0) {
+        const std::size_t part = std::min(rle::longest_stretch, count);
+        *to++ = static_cast<std::byte>(part - 1);
+        pack(pixels, part, to);
+        pixels += part;
+        count -= part;
+        to += rle::colour_bytes * part;
+    }
+    return to;
+}
+
+std::size_t encode(const Rgba8* pixels, std::size_t count, std::byte* out) {
+    std::byte* to = out;
+    std::size_t stretch_begin = 0;
+    while (true) {
+        const std::size_t run = find_pair(pixels, stretch_begin, count);
+        to = put_stretch(pixels + stretch_begin, run - stretch_begin, to);
+        if (run == count) {
+            return static_cast<std::size_t>(to - out);
+        }
+        const std::size_t longest = run + std::min(rle::longest_run, count - run);
+        const std::size_t end = run_end(pixels, run + rle::shortest_run, longest, pixels[run]);
+        to = rle::put_colour(pixels[run], rle::put_run_control(end - run, to));
+        stretch_begin = end;
+    }
+}
+
+base::Status decode(std::span<const std::byte> bytes, std::span<Rgba8> pixels) {
+    const auto broken = [](const char* detail) {
+        return base::error(base::Code::corrupt, "decode picture", detail);
+    };
     while (!bytes.empty()) {
-        const Part part = part_at(bytes);
+        const rle::Part part = rle::part_at(bytes);
         if (part.bytes() > bytes.size()) {
             return broken("the code ends within a part");
         }
         if (part.pixels > pixels.size()) {
             return broken("the code gives more pixels than the picture has");
         }
-        const auto colours = bytes.subspan(part.control_bytes);
+        const std::byte* const colours_begin = bytes.data() + part.control_bytes;
         if (part.is_run) {
-            std::fill_n(pixels.begin(), part.pixels, colour_at(colours));
+            fill(pixels.data(), part.pixels, rle::colour_at(colours_begin));
         } else {
-            for (std::size_t i = 0; i < part.pixels; ++i) {
-                pixels[i] = colour_at(colours.subspan(i * colour_bytes));
-            }
+            unpack(colours_begin, part.pixels, pixels.data());
         }
         bytes = bytes.subspan(part.bytes());
         pixels = pixels.subspan(part.pixels);
@@ -178,49 +204,28 @@ base::Status decode_rle(std::span<const std::byte> bytes, std::span<Rgba8> pixel
     return {};
 }
 
-std::vector<std::byte> deflate(std::span<const std::byte> bytes, int level) {
-    uLongf size = compressBound(bytes.size());
-    std::vector<std::byte> out(size);
-    const int status = compress2(reinterpret_cast<Bytef*>(out.data()), &size,
-                                 reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), level);
-    base::check(status == Z_OK, "deflate has the room and the level it needs");
-    out.resize(size);
-    return out;
+}  // namespace
+}  // namespace shearwater::image::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace shearwater::image {
+
+HWY_EXPORT(encode);
+HWY_EXPORT(decode);
+
+std::size_t rle_bound(std::size_t pixels) {
+    return rle::colour_bytes * pixels + (pixels + rle::longest_stretch - 1) / rle::longest_stretch;
 }
 
-base::Result<std::vector<std::byte>> inflate(std::span<const std::byte> bytes, std::size_t limit) {
-    const auto fault = [](base::Code code, const char* detail) {
-        return base::error(code, "inflate", detail);
-    };
-    Inflater inflater;
-    if (!inflater.ready) {
-        return fault(base::Code::io, "out of memory");
-    }
-    z_stream& stream = inflater.stream;
-    std::vector<std::byte> out;
-    std::array<std::byte, std::size_t{1} << 16> piece;
-    int status = Z_OK;
-    while (status != Z_STREAM_END) {
-        feed(stream, bytes);
-        stream.next_out = reinterpret_cast<Bytef*>(piece.data());
-        stream.avail_out = static_cast<uInt>(piece.size());
-        status = ::inflate(&stream, Z_NO_FLUSH);
-        const std::size_t got = piece.size() - stream.avail_out;
-        if (got > limit - out.size()) {
-            return fault(base::Code::too_large, "more bytes than the picture can have");
-        }
-        out.insert(out.end(), piece.begin(), piece.begin() + static_cast<std::ptrdiff_t>(got));
-        if (status == Z_BUF_ERROR) {
-            return fault(base::Code::corrupt, "the stream is cut off");
-        }
-        if (status != Z_OK && status != Z_STREAM_END) {
-            return fault(base::Code::corrupt, "the stream is broken");
-        }
-    }
-    if (stream.avail_in > 0 || !bytes.empty()) {
-        return fault(base::Code::corrupt, "bytes follow the stream");
-    }
-    return out;
+std::size_t encode_rle(std::span<const Rgba8> pixels, std::span<std::byte> out) {
+    base::check(out.size() >= rle_bound(pixels.size()), "the output holds the bound");
+    return HWY_DYNAMIC_DISPATCH(encode)(pixels.data(), pixels.size(), out.data());
+}
+
+base::Status decode_rle(std::span<const std::byte> bytes, std::span<Rgba8> pixels) {
+    return HWY_DYNAMIC_DISPATCH(decode)(bytes, pixels);
 }
 
 }  // namespace shearwater::image
+#endif

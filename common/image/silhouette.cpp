@@ -1,6 +1,7 @@
 #include "common/image/silhouette.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace shearwater::image {
@@ -64,6 +65,32 @@ Stretch Silhouette::row(double j) const {
         }
     }
     return {(at_u.lo - face_.origin.x) / face_.pitch.x, (at_u.hi - face_.origin.x) / face_.pitch.x};
+}
+
+// The rows of pixels about j say most of it, as the outline is convex: inside what joins the two next to j,
+// all is inside, and outside what goes on from the two before or the two after, nothing is.
+//
+//   row - 1     *
+//   row           *
+//   j             |  * ?  *  outside
+//   row + 1       *
+//
+// Where one of them does not meet the cube, the sums are infinite, or no number at all, and the comparisons
+// with those are false or right.
+bool Silhouette::contains(double i, double j) const {
+    const double row_above = std::floor(j);
+    const double down = j - row_above, up = 1 - down;
+    const int n = static_cast<int>(row_above);
+    const Stretch &before = pixel_row(n - 1), &above = pixel_row(n), &below = pixel_row(n + 1),
+                  &after = pixel_row(n + 2);
+    if (above.lo + (below.lo - above.lo) * down <= i && i <= above.hi + (below.hi - above.hi) * down) {
+        return true;
+    }
+    if (i < above.lo + (above.lo - before.lo) * down || i > above.hi + (above.hi - before.hi) * down ||
+        i < below.lo + (below.lo - after.lo) * up || i > below.hi + (below.hi - after.hi) * up) {
+        return false;
+    }
+    return row(j).contains(i);
 }
 
 }  // namespace shearwater::image

@@ -22,6 +22,9 @@ class Silhouette {
     // Of a row of pixels from 2 above the face to 2 below it.
     const Stretch& pixel_row(int j) const { return rows_[static_cast<std::size_t>(j + reach)]; }
     static constexpr int reach = 2;
+    // Whether a place's ray meets the cube: row(j).contains(i), mostly without working row(j) out. The place
+    // is in the face or less than a pixel from it.
+    bool contains(double i, double j) const;
 
   private:
     const view::Factorisation& factorisation_;

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 
-#include "common/image/silhouette.h"
+#include "common/image/finish.h"
+#include "common/image/layer.h"
+#include "common/image/resample_span.h"
 
 namespace shearwater::image {
 
@@ -16,55 +17,71 @@ using view::Factorisation;
 using view::Projection;
 using view::Vec3;
 
-// A face's intermediate image, and what of it the cube covers.
-struct Layer {
-    const Window* window;
-    const Face* face;
-    Silhouette silhouette;
-};
-
-// Where a ray of the picture lies in the intermediate images; layer is null where none has it.
-struct Place {
-    const Layer* layer = nullptr;
-    double i = 0, j = 0;  // in the face's pixels
-};
-
+// The faces' images, and which of them a point of the picture is in. Faces are numbered as the sides of the
+// cube around the eye that the rays go through.
 class Finder {
   public:
     Finder(const Factorisation& factorisation, std::span<const Window> windows, const view::Camera& camera,
-           const view::ImageSize& size)
+           const view::ImageSize& size, base::Workers& workers)
         : factorisation_(factorisation),
-          rays_(in_voxel_space(view::rays_of(camera, size), factorisation.lattice)) {
+          rays_(in_voxel_space(view::rays_of(camera, size), factorisation.lattice)),
+          width_(size.width) {
         for (const Window& window : windows) {
             const Face& face = factorisation.faces[static_cast<std::size_t>(window.face)];
-            layers_[slot(face.axis, face.sign > 0)].emplace(
-                Layer{&window, &face, Silhouette(factorisation, face)});
+            layers_[side(face.axis, face.sign > 0)].emplace(factorisation, window, workers);
         }
     }
 
-    Place find(double px, double py) const {
-        const bool perspective = factorisation_.projection == Projection::perspective;
-        const Vec3 direction = perspective ? rays_.direction_at(px, py) : factorisation_.direction;
+    std::size_t side_at(double px, double py) const {
+        const Vec3 direction = perspective() ? rays_.direction_at(px, py) : factorisation_.direction;
         const int axis = principal_axis(direction);
-        const std::optional<Layer>& layer = layers_[slot(axis, direction[axis] > 0)];
-        if (!layer) {
-            return {};
+        return side(axis, direction[axis] > 0);
+    }
+
+    // The end of the pixels of row y, from x on, that are in the side of x. A side's rays are a convex cone,
+    // so that the row goes through each in one stretch.
+    int end_of_side(int x, int y) const {
+        const std::size_t here = side_at(x + 0.5, y + 0.5);
+        int last = x, end = width_;
+        for (int at = end - 1; last + 1 < end; at = last + (end - last) / 2) {
+            (side_at(at + 0.5, y + 0.5) == here ? last : end) = at;
+            if (last == width_ - 1) {
+                return width_;
+            }
         }
-        const Face& face = *layer->face;
-        const int u = face.u_axis();
-        const int v = face.v_axis();
-        double at_u = direction[u] / direction[axis];
-        double at_v = direction[v] / direction[axis];
-        if (!perspective) {
-            const Vec3 origin = rays_.origin_at(px, py);
-            at_u = origin[u] - at_u * origin[axis];
-            at_v = origin[v] - at_v * origin[axis];
+        return end;
+    }
+
+    // Null where there is none, or nothing in it.
+    const Layer* layer(std::size_t side) const {
+        return layers_[side] && !layers_[side]->lit().empty() ? &*layers_[side] : nullptr;
+    }
+
+    // Of a row of points whose rays go through the layer's face.
+    Track track(const Layer& layer, double py) const {
+        const Face& face = layer.face();
+        const int u = face.u_axis(), v = face.v_axis(), w = face.axis;
+        if (perspective()) {
+            const Vec3 start = rays_.direction_at(0, py);
+            const Vec3& step = rays_.dir_x;
+            return {(start[u] - face.origin.x * start[w]) / face.pitch.x,
+                    (step[u] - face.origin.x * step[w]) / face.pitch.x,
+                    (start[v] - face.origin.y * start[w]) / face.pitch.y,
+                    (step[v] - face.origin.y * step[w]) / face.pitch.y,
+                    start[w],
+                    step[w]};
         }
-        return {&*layer, (at_u - face.origin.x) / face.pitch.x, (at_v - face.origin.y) / face.pitch.y};
+        const Vec3 slope = factorisation_.direction / factorisation_.direction[w];
+        const Vec3 start = rays_.origin_at(0, py) - slope * rays_.origin_at(0, py)[w];
+        const Vec3 step = rays_.origin_x - slope * rays_.origin_x[w];
+        return {(start[u] - face.origin.x) / face.pitch.x, step[u] / face.pitch.x,
+                (start[v] - face.origin.y) / face.pitch.y, step[v] / face.pitch.y};
     }
 
   private:
-    static std::size_t slot(int axis, bool rising) {
+    bool perspective() const { return factorisation_.projection == Projection::perspective; }
+
+    static std::size_t side(int axis, bool rising) {
         return static_cast<std::size_t>(2 * axis + (rising ? 1 : 0));
     }
 
@@ -75,147 +92,39 @@ class Finder {
 
     const Factorisation& factorisation_;
     view::Rays rays_;
+    int width_;
     std::array<std::optional<Layer>, Factorisation::max_faces> layers_;
 };
 
-RgbaF& operator+=(RgbaF& sum, const RgbaF& pixel) {
-    sum = {sum.r + pixel.r, sum.g + pixel.g, sum.b + pixel.b, sum.a + pixel.a};
-    return sum;
-}
-RgbaF operator*(float k, const RgbaF& pixel) {
-    return {k * pixel.r, k * pixel.g, k * pixel.b, k * pixel.a};
-}
-
-// Catmull-Rom's weights of the four pixels about a point, t of the way from the second to the third.
-std::array<float, 4> cubic_weights(float t) {
-    return {0.5F * t * (-1 + t * (2 - t)), 0.5F * (2 + t * t * (-5 + 3 * t)),
-            0.5F * t * (1 + t * (4 - 3 * t)), 0.5F * t * t * (-1 + t)};
-}
-
-RgbaF within_gamut(const RgbaF& pixel) {
-    const float a = std::clamp(pixel.a, 0.0F, 1.0F);
-    return {std::clamp(pixel.r, 0.0F, a), std::clamp(pixel.g, 0.0F, a), std::clamp(pixel.b, 0.0F, a), a};
-}
-
-// A pixel's neighbourhood: the 4 x 4 intermediate pixels about its place, which lies (tx, ty) of the way
-// from the second to the third of them.
-struct Patch {
-    int i, j;  // of the first, in the face's pixels
-    float tx, ty;
-};
-
-RgbaF pixel_at(const Window& window, int i, int j) {
-    const Rect& rect = window.rect;
-    const bool has = rect.x0 <= i && i < rect.x1 && rect.y0 <= j && j < rect.y1;
-    return has ? window.pixels.at(i - rect.x0, j - rect.y0) : RgbaF{};
-}
-
-// Catmull-Rom's cubic interpolation.
-RgbaF interpolate(const Window& window, const Patch& patch) {
-    const auto weight_x = cubic_weights(patch.tx);
-    const auto weight_y = cubic_weights(patch.ty);
-    const Rect& rect = window.rect;
-    const bool whole =
-        patch.i >= rect.x0 && patch.i + 4 <= rect.x1 && patch.j >= rect.y0 && patch.j + 4 <= rect.y1;
-    RgbaF sum;
-    for (int dy = 0; dy < 4; ++dy) {
-        RgbaF along;
-        const RgbaF* const row =
-            whole ? &window.pixels.at(patch.i - rect.x0, patch.j + dy - rect.y0) : nullptr;
-        for (int dx = 0; dx < 4; ++dx) {
-            along += weight_x[static_cast<std::size_t>(dx)] *
-                     (whole ? row[dx] : pixel_at(window, patch.i + dx, patch.j + dy));
-        }
-        sum += weight_y[static_cast<std::size_t>(dy)] * along;
-    }
-    return within_gamut(sum);
-}
-
-// Beside the silhouette, where some of the neighbourhood has no value: the plane that fits the rest best,
-// so that the picture ends as sharply as the cube does, at the place where it does.
-RgbaF extrapolate(const Layer& layer, const Patch& patch) {
-    struct Tap {
-        float weight, x, y;
-        RgbaF pixel;
-    };
-    std::array<Tap, 16> taps;
-    std::size_t count = 0;
-    float s = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
-    for (int n = 0; n < 16; ++n) {
-        const int i = patch.i + n % 4;
-        const int j = patch.j + n / 4;
-        if (!layer.silhouette.pixel_row(j).contains(i)) {
+// Row y of the picture into `row`, transparent before. `left` is room for a row's numbers.
+void warp_row(const Finder& finder, int y, std::span<RgbaF> row, std::span<int> left) {
+    const int width = static_cast<int>(row.size());
+    for (int x = 0, end = 0; x < width; x = end) {
+        end = finder.end_of_side(x, y);
+        const Layer* const layer = finder.layer(finder.side_at(x + 0.5, y + 0.5));
+        if (layer == nullptr) {
             continue;
         }
-        const float x = static_cast<float>(n % 4 - 1) - patch.tx;
-        const float y = static_cast<float>(n / 4 - 1) - patch.ty;
-        const float tent = std::max(2 - std::abs(x), 0.05F) * std::max(2 - std::abs(y), 0.05F);
-        const float w = tent * tent;
-        taps[count++] = {w, x, y, pixel_at(*layer.window, i, j)};
-        s += w;
-        sx += w * x;
-        sy += w * y;
-        sxx += w * x * x;
-        sxy += w * x * y;
-        syy += w * y * y;
+        const auto part = row.subspan(static_cast<std::size_t>(x), static_cast<std::size_t>(end - x));
+        const Track track = finder.track(*layer, y + 0.5);
+        const std::size_t count = resample_span(*layer, track, x, part, left);
+        for (const int n : left.first(count)) {
+            part[static_cast<std::size_t>(n)] = resample(*layer, track.at(x + n + 0.5));
+        }
     }
-    if (count == 0) {
-        return {};
-    }
-    // The fitted plane's value here is the sum of weight * (a + b x + c y) * pixel.
-    const float determinant =
-        s * (sxx * syy - sxy * sxy) - sx * (sx * syy - sxy * sy) + sy * (sx * sxy - sxx * sy);
-    float a = 1 / s, b = 0, c = 0;
-    if (determinant > 0.02F * s * s * s) {
-        a = (sxx * syy - sxy * sxy) / determinant;
-        b = (sxy * sy - sx * syy) / determinant;
-        c = (sx * sxy - sxx * sy) / determinant;
-    }
-    RgbaF sum;
-    for (const Tap& tap : std::span(taps).first(count)) {
-        sum += tap.weight * (a + b * tap.x + c * tap.y) * tap.pixel;
-    }
-    return within_gamut(sum);
 }
 
-RgbaF resample(const Place& place) {
-    const Layer& layer = *place.layer;
-    const int rows = layer.face->height;
-    if (!(place.i > -1 && place.j > -1 && place.i < layer.face->width && place.j < rows)) {
-        return {};
-    }
-    const double i = std::floor(place.i);
-    const double j = std::floor(place.j);
-    const Patch patch{static_cast<int>(i) - 1, static_cast<int>(j) - 1, static_cast<float>(place.i - i),
-                      static_cast<float>(place.j - j)};
-    // The outline is convex: it holds the patch if it holds its corners.
-    const Stretch& top = layer.silhouette.pixel_row(patch.j);
-    const Stretch& bottom = layer.silhouette.pixel_row(patch.j + 3);
-    if (std::max(top.lo, bottom.lo) <= patch.i && patch.i + 3 <= std::min(top.hi, bottom.hi)) {
-        return interpolate(*layer.window, patch);
-    }
-    return layer.silhouette.row(place.j).contains(place.i) ? extrapolate(layer, patch) : RgbaF{};
-}
-
-std::uint8_t to_level(double x) {
-    return static_cast<std::uint8_t>(std::clamp(x, 0.0, 1.0) * 255 + 0.5);
-}
-
-template <class Pixel, class Finish>
-Image<Pixel> warp_to(const Factorisation& factorisation, std::span<const Window> windows,
-                     const view::Camera& camera, const view::ImageSize& size, base::Workers& workers,
-                     const Finish& finish) {
-    Image<Pixel> picture(size.width, size.height);
-    const Finder finder(factorisation, windows, camera, size);
-    workers.for_each(size.height, [&](std::int64_t row) {
-        const int y = static_cast<int>(row);
-        const auto pixels = picture.row(y);
-        for (int x = 0; x < size.width; ++x) {
-            const Place place = finder.find(x + 0.5, y + 0.5);
-            pixels[static_cast<std::size_t>(x)] = finish(place.layer == nullptr ? RgbaF{} : resample(place));
+// Calls body(y, left) for every row.
+template <class Body>
+void for_each_row(const view::ImageSize& size, base::Workers& workers, const Body& body) {
+    constexpr int rows_at_a_time = 4;
+    workers.for_each((size.height + rows_at_a_time - 1) / rows_at_a_time, [&](std::int64_t part) {
+        std::vector<int> left(static_cast<std::size_t>(size.width));
+        const int begin = static_cast<int>(part) * rows_at_a_time;
+        for (int y = begin; y < std::min(begin + rows_at_a_time, size.height); ++y) {
+            body(y, left);
         }
     });
-    return picture;
 }
 
 }  // namespace
@@ -223,17 +132,23 @@ Image<Pixel> warp_to(const Factorisation& factorisation, std::span<const Window>
 Image<Rgba8> warp(const Factorisation& factorisation, std::span<const Window> windows,
                   const view::Camera& camera, const view::ImageSize& size, const view::Rgb& background,
                   base::Workers& workers) {
-    return warp_to<Rgba8>(factorisation, windows, camera, size, workers, [&](const RgbaF& pixel) {
-        const double through = 1 - static_cast<double>(pixel.a);
-        return Rgba8{to_level(pixel.r + through * background.r), to_level(pixel.g + through * background.g),
-                     to_level(pixel.b + through * background.b), 255};
+    Image<Rgba8> picture(size.width, size.height, Unfilled());
+    const Finder finder(factorisation, windows, camera, size, workers);
+    for_each_row(size, workers, [&](int y, std::span<int> left) {
+        std::vector<RgbaF> row(static_cast<std::size_t>(size.width));
+        warp_row(finder, y, row, left);
+        finish(row, background, picture.row(y));
     });
+    return picture;
 }
 
 Image<RgbaF> warp_float(const Factorisation& factorisation, std::span<const Window> windows,
                         const view::Camera& camera, const view::ImageSize& size, base::Workers& workers) {
-    return warp_to<RgbaF>(factorisation, windows, camera, size, workers,
-                          [](const RgbaF& pixel) { return pixel; });
+    Image<RgbaF> picture(size.width, size.height);
+    const Finder finder(factorisation, windows, camera, size, workers);
+    for_each_row(size, workers,
+                 [&](int y, std::span<int> left) { warp_row(finder, y, picture.row(y), left); });
+    return picture;
 }
 
 }  // namespace shearwater::image

@@ -1,0 +1,101 @@
+#include "common/image/layer.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace shearwater::image {
+
+namespace {
+
+Range common(const Range& a, const Range& b) {
+    return {std::max(a.first, b.first), std::min(a.end, b.end)};
+}
+
+Range bounding(const Range& a, const Range& b) {
+    if (a.empty() || b.empty()) {
+        return a.empty() ? b : a;
+    }
+    return {std::min(a.first, b.first), std::max(a.end, b.end)};
+}
+
+bool is_lit(std::span<const RgbaF> pixels) {
+    std::uint64_t bits = 0;
+    for (const RgbaF& pixel : pixels) {
+        const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(pixel);
+        bits |= halves[0] | halves[1];
+    }
+    return bits != 0;
+}
+
+// From the first pixel that is not transparent to the last. Most of those that are go a block at a time.
+Range lit_of(std::span<const RgbaF> row) {
+    std::size_t begin = 0, end = row.size();
+    for (const std::size_t block : {std::size_t{16}, std::size_t{1}}) {
+        while (begin + block <= end && !is_lit(row.subspan(begin, block))) {
+            begin += block;
+        }
+    }
+    for (const std::size_t block : {std::size_t{16}, std::size_t{1}}) {
+        while (begin + block <= end && !is_lit(row.subspan(end - block, block))) {
+            end -= block;
+        }
+    }
+    return {static_cast<int>(begin), static_cast<int>(end)};
+}
+
+}  // namespace
+
+Layer::Layer(const view::Factorisation& factorisation, const Window& window, base::Workers& workers)
+    : window_(&window),
+      face_(&factorisation.faces[static_cast<std::size_t>(window.face)]),
+      silhouette_(factorisation, *face_) {
+    const std::vector<Range> lit = lit_pixels(workers);
+    rows_.resize(static_cast<std::size_t>(face_->height) + 3);
+    for (int j = -1; j < face_->height; ++j) {
+        CellRow& row = rows_[static_cast<std::size_t>(j + rows_above)];
+        row = row_of_cells(j, lit);
+        lit_ = view::bounding(lit_, {row.lit.first, j, row.lit.end, j + 1});
+    }
+}
+
+// Of each of the window's rows, in the face's pixels.
+std::vector<Range> Layer::lit_pixels(base::Workers& workers) const {
+    constexpr int rows_at_a_time = 16;
+    const int height = window_->rect.height();
+    std::vector<Range> lit(static_cast<std::size_t>(std::max(height, 0)));
+    workers.for_each((height + rows_at_a_time - 1) / rows_at_a_time, [&](std::int64_t part) {
+        const int begin = static_cast<int>(part) * rows_at_a_time;
+        for (int y = begin; y < std::min(begin + rows_at_a_time, height); ++y) {
+            const Range range = lit_of(window_->pixels.row(y));
+            lit[static_cast<std::size_t>(y)] = {range.first + window_->rect.x0, range.end + window_->rect.x0};
+        }
+    });
+    return lit;
+}
+
+CellRow Layer::row_of_cells(int j, const std::vector<Range>& lit_pixels) const {
+    const Rect& rect = window_->rect;
+    Range lit;
+    for (int y = std::max(j - 1, rect.y0); y < std::min(j + 3, rect.y1); ++y) {
+        lit = bounding(lit, lit_pixels[static_cast<std::size_t>(y - rect.y0)]);
+    }
+    if (lit.empty()) {
+        return {};
+    }
+    lit = common({lit.first - 2, lit.end + 1}, {-1, face_->width});
+    if (j - 1 < rect.y0 || j + 3 > rect.y1) {
+        return {lit, {}};
+    }
+    // The outline is convex: it holds the 16 pixels if it holds their corners.
+    const Stretch& top = silhouette_.pixel_row(j - 1);
+    const Stretch& bottom = silhouette_.pixel_row(j + 2);
+    const auto to_pixel = [&](double i) { return static_cast<int>(std::clamp(i, -4.0, face_->width + 4.0)); };
+    const int first = to_pixel(std::ceil(std::max(top.lo, bottom.lo)));
+    const int last = to_pixel(std::floor(std::min(top.hi, bottom.hi)));
+    const Range pixels = common({first, last + 1}, {rect.x0, rect.x1});
+    return {lit, common({pixels.first + 1, pixels.end - 2}, lit)};
+}
+
+}  // namespace shearwater::image

@@ -1,0 +1,59 @@
+#pragma once
+// A face's intermediate image as the warp reads it. A cell is the square between four pixels, named by the
+// first of them, (floor(i), floor(j)); what lies in it is resampled from the 4 x 4 pixels about it:
+//
+//     i-1   i   i+1  i+2
+//   j-1  .   .   .   .
+//   j    .   +---+   .        cell (i, j)
+//   j+1  .   +---+   .
+//   j+2  .   .   .   .
+
+#include <cstddef>
+#include <vector>
+
+#include "common/base/workers.h"
+#include "common/image/image.h"
+#include "common/image/silhouette.h"
+
+namespace shearwater::image {
+
+// Half-open range of pixels or cells of a row.
+struct Range {
+    int first = 0, end = 0;
+    bool empty() const { return end <= first; }
+    bool contains(int i) const { return first <= i && i < end; }
+};
+
+// What a row of cells needs: nothing outside `lit`, where all 16 pixels are transparent; in `whole`, a part
+// of it, plain interpolation, as the window has all 16 and the cube's outline holds them.
+struct CellRow {
+    Range lit, whole;
+};
+
+class Layer {
+  public:
+    Layer(const view::Factorisation& factorisation, const Window& window, base::Workers& workers);
+
+    const view::Face& face() const { return *face_; }
+    const Window& window() const { return *window_; }
+    const Silhouette& silhouette() const { return silhouette_; }
+
+    // The cells that any place in the face is in are from -1 to the face's size less 1. There is one more row
+    // of them, empty, above and below.
+    const CellRow& cell_row(int j) const { return rows_[static_cast<std::size_t>(j + rows_above)]; }
+    // Holds all lit cells.
+    const Rect& lit() const { return lit_; }
+    static constexpr int rows_above = 2;
+
+  private:
+    std::vector<Range> lit_pixels(base::Workers& workers) const;
+    CellRow row_of_cells(int j, const std::vector<Range>& lit_pixels) const;
+
+    const Window* window_;
+    const view::Face* face_;
+    Silhouette silhouette_;
+    std::vector<CellRow> rows_;
+    Rect lit_;
+};
+
+}  // namespace shearwater::image
