@@ -4,34 +4,27 @@
 
 namespace shearwater::shear {
 
-namespace {
-
-std::uint64_t opaque_micro_bricks(const Brick& brick, const MicroBricks& micro_bricks,
-                                  const OpacityTable& table) {
-    if (!table.any_opacity(brick.min, brick.max)) {
-        return 0;
-    }
-    std::uint64_t mask = 0;
-    for (std::size_t m = 0; m < MicroBricks::count; ++m) {
-        mask |= std::uint64_t{table.any_opacity(micro_bricks.min[m], micro_bricks.max[m])} << m;
-    }
-    return mask;
-}
-
-}  // namespace
-
 Classification classify(const BrickVolume& volume, const view::TransferFunction& tf, base::Workers& workers) {
-    constexpr std::int64_t at_once = 256;
-    const auto count = static_cast<std::int64_t>(volume.bricks().size());
+    constexpr std::int64_t at_once = 1 << 15;
+    const auto ranges = volume.micro_bricks().ranges();
+    const auto count = static_cast<std::int64_t>(ranges.size());
     Classification classification{.table = OpacityTable(tf, volume.mapping().levels()),
-                                  .opaque = std::vector<std::uint64_t>(volume.bricks().size())};
+                                  .micro_bricks = std::vector<Content>(ranges.size()),
+                                  .opaque = std::vector<std::uint8_t>(volume.bricks().ranges().size())};
+    const OpacityTable& table = classification.table;
     workers.for_each((count + at_once - 1) / at_once, [&](std::int64_t part) {
-        for (std::int64_t i = part * at_once; i < std::min(count, (part + 1) * at_once); ++i) {
-            const auto n = static_cast<std::size_t>(i);
-            classification.opaque[n] =
-                opaque_micro_bricks(volume.bricks()[n], volume.micro_bricks()[n], classification.table);
+        const auto end = static_cast<std::size_t>(std::min(count, (part + 1) * at_once));
+        for (auto n = static_cast<std::size_t>(part * at_once); n < end; ++n) {
+            const CodeRange& range = ranges[n];
+            classification.micro_bricks[n] = !table.any_opacity(range.min, range.max) ? Content::transparent
+                                             : range.blanks                           ? Content::with_blanks
+                                                                                      : Content::full;
         }
     });
+    std::transform(volume.bricks().ranges().begin(), volume.bricks().ranges().end(),
+                   classification.opaque.begin(), [&](const CodeRange& range) {
+                       return static_cast<std::uint8_t>(table.any_opacity(range.min, range.max));
+                   });
     return classification;
 }
 

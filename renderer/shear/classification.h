@@ -11,11 +11,17 @@
 
 namespace shearwater::shear {
 
+// What the kernel has to do with a micro-brick.
+enum class Content : std::uint8_t {
+    transparent,  // nothing: no sample in it has opacity
+    full,         // some may, and none of its voxels is blank
+    with_blanks,  // some may
+};
+
 struct Classification {
     OpacityTable table;
-    // For each brick a bit per micro-brick, as MicroBricks counts them: whether a sample in it may have
-    // opacity.
-    std::vector<std::uint64_t> opaque;
+    std::vector<Content> micro_bricks;  // as BrickVolume::micro_bricks() counts them
+    std::vector<std::uint8_t> opaque;   // as BrickVolume::bricks() does: whether one in it is not transparent
 };
 
 Classification classify(const BrickVolume& volume, const view::TransferFunction& tf, base::Workers& workers);

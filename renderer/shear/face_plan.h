@@ -1,17 +1,16 @@
 #pragma once
-// What the tiles of one face share in a frame: where each slice of each brick lies in the face's image,
-// the order to visit bricks in, and the length each sample stands for.
+// What the tiles of one face share in a frame: where each slice lies in the face's image, and the length that
+// each sample stands for.
 //
-// Bricks hold axis 0 fastest. A face is rendered in rows along its fast axis, the in-plane one whose voxels
-// are adjacent, or will be once a brick is turned (axis 0 being the principal one); the other is its slow
-// axis. All rectangles and pixels here are turned the same way: x and i along the fast axis, y and j along
-// the slow one.
+// Voxels are adjacent along axis 0. A face is rendered in rows along its fast axis, the in-plane one whose
+// voxels are adjacent, or will be once they are turned (axis 0 being the principal one); the other is its
+// slow axis. All rectangles and pixels here are turned the same way: x and i along the fast axis, y and j
+// along the slow one.
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "common/base/workers.h"
 #include "common/view/factorisation.h"
 #include "renderer/shear/brick_volume.h"
 
@@ -19,8 +18,7 @@ namespace shearwater::shear {
 
 class FacePlan {
   public:
-    FacePlan(const BrickVolume& volume, const view::Factorisation& factorisation, int face_index,
-             base::Workers& workers);
+    FacePlan(const BrickVolume& volume, const view::Factorisation& factorisation, int face_index);
 
     const view::Face& face() const { return face_; }
     const view::Factorisation& factorisation() const { return factorisation_; }
@@ -34,17 +32,11 @@ class FacePlan {
     // The pixels that the sub-volume may reach.
     const view::Rect& window() const { return window_; }
 
-    // Bricks' places along each axis, in an order that is front to back along every ray of the face, the
-    // principal axis being the outermost loop.
-    const std::vector<std::int64_t>& layers() const { return order_[0]; }
-    const std::vector<std::int64_t>& columns() const { return order_[1]; }  // along the fast axis
-    const std::vector<std::int64_t>& rows() const { return order_[2]; }     // along the slow axis
-    // The slices that the bricks of a layer own and that are in front of the eye.
-    view::SliceRange slices_of_layer(std::int64_t layer) const;
-    // The pixels whose samples on slice k the bricks of a column own along the fast axis; of a row, along
-    // the slow one.
-    const view::PixelRange& pixels_of_column(std::int64_t k, std::int64_t column) const;
-    const view::PixelRange& pixels_of_row(std::int64_t k, std::int64_t row) const;
+    // The slices that the sub-volume owns and that are in front of the eye, front to back: the n-th's number.
+    std::int64_t slice_count() const { return slices_.last - slices_.first + 1; }
+    std::int64_t slice(std::int64_t n) const { return face_.sign > 0 ? slices_.first + n : slices_.last - n; }
+    // The pixels whose samples on slice k the sub-volume owns.
+    const view::Rect& owned(std::int64_t k) const { return owned_[slot(k)]; }
 
     // Where voxels of the plane at w lie under pixels, fast as u and slow as v.
     view::SliceMap slice_map(double w) const;
@@ -58,9 +50,7 @@ class FacePlan {
     void shares(std::int64_t k, int i, int j, std::span<float> out) const;
 
   private:
-    void lay_slices(const BrickVolume& volume, base::Workers& workers);
-    void lay_slice(const BrickVolume& volume, std::int64_t k);
-    std::vector<std::int64_t> front_to_back(const BrickVolume& volume, int axis) const;
+    void lay_slice(const volume::Box& box, std::int64_t k);
     std::size_t slot(std::int64_t k) const { return static_cast<std::size_t>(k - slices_.first); }
     bool perspective() const { return factorisation_.projection == view::Projection::perspective; }
 
@@ -69,10 +59,8 @@ class FacePlan {
     volume::Index3 last_voxel_;  // of the cube
     view::Rect window_;
     view::SliceRange slices_;  // that the sub-volume owns, in front of the eye
-    std::array<std::vector<std::int64_t>, 3> order_;
-    std::vector<view::SliceRange> layers_;
-    std::vector<view::PixelRange> columns_, rows_;  // slice by slice
-    std::vector<view::Rect> inside_;                // of the slices and of one more at either end
+    std::vector<view::Rect> owned_;
+    std::vector<view::Rect> inside_;  // of the slices and of one more at either end
 };
 
 }  // namespace shearwater::shear

@@ -1,5 +1,5 @@
 #pragma once
-// The inner loop: the samples of a few slices of one brick over some intermediate pixels.
+// The inner loop: the samples of a few slices over some intermediate pixels.
 //
 //              fast ->            voxels of a slice: adjacent along its fast axis, rows `stride` apart
 //   slow  o-----o-----o-----o
@@ -22,7 +22,7 @@ namespace shearwater::shear {
 
 template <class Code>
 struct Slice {
-    const Code* voxels;  // the brick's first
+    const Code* voxels;  // that of the slab's first voxel on the plane at the slice or before it
     const Code* next;    // the next plane of voxels where the slice lies half-way to it, else null
     double fast_offset, fast_scale;
     double slow_offset, slow_scale;
@@ -31,21 +31,22 @@ struct Slice {
     const float* lengths;
 };
 
-// Slices of one brick that follow one another front to back.
+// Slices that follow one another front to back.
 template <class Code>
 struct Slab {
     static constexpr int max_slices = 8;
 
-    std::ptrdiff_t stride;
-    std::int64_t fast_first, slow_first;  // the brick's first voxel
-    int fast_pixel, slow_pixel;           // the tile's first pixel
-    int fast_cells, slow_cells;           // a row holds fast_cells + 1 voxels
-    bool blanks;                          // whether code 0, which is no value, occurs
-    bool between_nodes;  // whether extinction is interpolated, or that of the nearest node will do
+    std::int64_t fast_first, slow_first;  // its first voxel
+    std::int64_t fast_cells, slow_cells;  // a row holds one voxel more, and there is one row more
+    std::ptrdiff_t stride;                // from row to row
+    std::ptrdiff_t ahead;  // from a plane to that of the slab that may be next, to be fetched in advance
+    int fast_pixel, slow_pixel;  // the tile's first pixel
+    bool blanks;                 // whether code 0, which is no value, occurs
+    bool between_nodes;          // whether extinction is interpolated, or that of the nearest node will do
     int count;
     std::array<Slice<Code>, max_slices> slices;
 };
-// Bytes beyond a brick's last row that may be read, though to no effect.
+// Bytes beyond the last row that may be read, though to no effect.
 inline constexpr std::size_t voxel_padding = 1024;
 
 // What the rays of a tile have gathered so far, premultiplied. One array each, `stride` from row to row,

@@ -68,8 +68,8 @@ struct Gathered {
     }
 };
 
-// Where the samples of a row of pixels, or of a column, lie: from voxel `cell` of the brick on by `step`
-// cell_steps. Where they lie on the last voxels of all, those behind have no weight.
+// Where the samples of a row of pixels, or of a column, lie: from voxel `cell` of the slab on by `step`
+// cell_steps.
 struct CellPlace {
     std::int64_t cell;
     int step;
@@ -86,7 +86,10 @@ HWY_INLINE double along_row(const Slice<Code>& slice, int i) {
 }
 template <class Code>
 HWY_INLINE CellPlace row_place(const Slab<Code>& slab, const Slice<Code>& slice, int j) {
-    return place_of(slice.slow_offset + slice.slow_scale * (j + slab.slow_pixel), slab.slow_first);
+    const CellPlace place =
+        place_of(slice.slow_offset + slice.slow_scale * (j + slab.slow_pixel), slab.slow_first);
+    // A row on the last row of voxels belongs to the last cell.
+    return place.cell < slab.slow_cells ? place : CellPlace{place.cell - 1, place.step + cell_steps};
 }
 
 // The pixels that some slice of a slab wants.

@@ -7,17 +7,17 @@ namespace shearwater::shear {
 
 namespace {
 
-// Where a coordinate lies among a brick's cells.
+// Where a coordinate lies among the voxels of a slab.
 struct Place {
-    int cell;
+    std::int64_t cell;
     float fraction;
 };
 
-Place place_among(double at, std::int64_t first_voxel, int cells) {
-    const auto steps = static_cast<std::int64_t>(at * cell_steps + 0.5);
+Place place_among(double at, std::int64_t first_voxel, std::int64_t cells) {
+    const std::int64_t steps = static_cast<std::int64_t>(at * cell_steps + 0.5) - first_voxel * cell_steps;
     // A sample on the last voxel of all belongs to the last cell.
-    const int cell = std::min(static_cast<int>(steps / cell_steps - first_voxel), cells - 1);
-    return {cell, static_cast<float>(steps - (first_voxel + cell) * cell_steps) / cell_steps};
+    const std::int64_t cell = std::min(steps / cell_steps, cells - 1);
+    return {cell, static_cast<float>(steps - cell * cell_steps) / cell_steps};
 }
 
 // The mean of the valid corners about a sample, or 0 where they weigh less than one half.

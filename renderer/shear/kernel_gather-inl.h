@@ -12,26 +12,28 @@
 HWY_BEFORE_NAMESPACE();
 namespace shearwater::shear::HWY_NAMESPACE {
 
-// Voxels or pixels, with room for a vector more.
+// Pixels of a chunk and voxels of a row, with room for a vector more.
 inline constexpr int room_for_a_vector = 16;
-inline constexpr int longest_row = widest_tile + room_for_a_vector;
+inline constexpr int most_voxels = 128;
+inline constexpr int longest_row = most_voxels + room_for_a_vector;
 
 // The same for all rows of pixels of a slice: which voxels of the row a pixel lies between.
 struct Columns {
     alignas(64) std::array<std::int32_t, longest_row> cells;
     alignas(64) std::array<float, longest_row> fractions;
-    int first_voxel, voxels;  // that are needed of a row
+    std::int64_t first_voxel;  // that is needed of a row
+    int voxels;
 };
 
 template <class Code>
-HWY_INLINE void lay_columns(const Slab<Code>& slab, const Slice<Code>& slice, Columns& columns) {
-    const int i0 = slice.pixels.x0, i1 = slice.pixels.x1;
+HWY_INLINE void lay_columns(const Slab<Code>& slab, const Slice<Code>& slice, int i0, int i1,
+                            Columns& columns) {
     const auto place = [&](int i) {
         return place_of(along_row(slice, i + slab.fast_pixel), slab.fast_first);
     };
     const std::int64_t least = std::min(place(i0).cell, place(i1 - 1).cell);
     const std::int64_t greatest = std::max(place(i0).cell, place(i1 - 1).cell);
-    columns.first_voxel = static_cast<int>(least);
+    columns.first_voxel = least;
     columns.voxels = static_cast<int>(greatest - least) + 2;
     for (int i = i0; i < i1; ++i) {
         const CellPlace at = place(i);
@@ -92,10 +94,10 @@ HWY_INLINE void interpolate_row(const Slab<Code>& slab, const Slice<Code>& slice
     }
 }
 
-// One row of pixels of one slice. a_before: of the row's rays, from pixel 0 on, before the slab.
+// One row of the pixels [i0, i1) of one slice. a_before: of the row's rays, from i0 on, before the slab.
 template <bool blanks, class Code>
-HWY_INLINE std::uint64_t composite_row(const Slab<Code>& slab, const Slice<Code>& slice, int j,
-                                       const Columns& columns, const OpacityTable& table,
+HWY_INLINE std::uint64_t composite_row(const Slab<Code>& slab, const Slice<Code>& slice, int i0, int i1,
+                                       int j, const Columns& columns, const OpacityTable& table,
                                        const float* a_before, const Rays& rays) {
     const hn::ScalableTag<float> d;
     const hn::RebindToSigned<decltype(d)> di;
@@ -103,11 +105,11 @@ HWY_INLINE std::uint64_t composite_row(const Slab<Code>& slab, const Slice<Code>
     Row row;
     interpolate_row<blanks>(slab, slice, j, columns, row);
     std::uint64_t taken = 0;
-    const int width = slice.pixels.width();
+    const int width = i1 - i0;
     for (int n = 0; n < width; n += static_cast<int>(hn::Lanes(d))) {
         const auto at = static_cast<std::size_t>(n);
         auto live = hn::And(hn::FirstN(d, static_cast<std::size_t>(width - n)),
-                            hn::Lt(hn::LoadU(d, a_before + slice.pixels.x0 + n), hn::Set(d, opaque_enough)));
+                            hn::Lt(hn::LoadU(d, a_before + n), hn::Set(d, opaque_enough)));
         if (hn::AllFalse(d, live)) {
             continue;
         }
@@ -132,7 +134,7 @@ HWY_INLINE std::uint64_t composite_row(const Slab<Code>& slab, const Slice<Code>
         const auto node = hn::ShiftLeft<2>(hn::ConvertTo(di, below));
         const auto left = hn::GatherIndex(d, nodes + 3, node);
         const auto right = hn::GatherIndex(d, nodes + 7, node);
-        const std::ptrdiff_t ray = j * rays.stride + slice.pixels.x0 + n;
+        const std::ptrdiff_t ray = j * rays.stride + i0 + n;
         const auto length = hn::IfThenElseZero(live, hn::LoadU(d, slice.lengths + ray));
         const auto depth = hn::Mul(hn::MulAdd(beyond, hn::Sub(right, left), left), length);
         if (hn::AllFalse(d, hn::Gt(depth, hn::Zero(d)))) {
@@ -148,24 +150,52 @@ HWY_INLINE std::uint64_t composite_row(const Slab<Code>& slab, const Slice<Code>
     return taken;
 }
 
+// The pixels of a chunk, from i0 to i1 at most.
 template <bool blanks, class Code>
-std::uint64_t composite_gathering(const Slab<Code>& slab, const OpacityTable& table, const Rays& rays) {
+std::uint64_t composite_chunk(const Slab<Code>& slab, const view::Rect& chunk, const OpacityTable& table,
+                              const Rays& rays) {
+    struct Span {
+        int i0, i1;
+    };
     std::array<Columns, Slab<Code>::max_slices> columns;
-    for (int k = 0; k < slab.count; ++k) {
-        lay_columns(slab, slab.slices[static_cast<std::size_t>(k)], columns[static_cast<std::size_t>(k)]);
+    std::array<Span, Slab<Code>::max_slices> spans;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(slab.count); ++k) {
+        const view::Rect& pixels = slab.slices[k].pixels;
+        spans[k] = {std::max(pixels.x0, chunk.x0), std::min(pixels.x1, chunk.x1)};
+        if (spans[k].i0 < spans[k].i1) {
+            lay_columns(slab, slab.slices[k], spans[k].i0, spans[k].i1, columns[k]);
+        }
     }
-    const view::Rect pixels = pixels_of(slab);
-    std::array<float, longest_row> a_before;
+    std::array<float, widest_tile + ray_padding> a_before;
     std::uint64_t taken = 0;
-    for (int j = pixels.y0; j < pixels.y1; ++j) {
+    for (int j = chunk.y0; j < chunk.y1; ++j) {
         std::copy_n(rays.a + j * rays.stride, a_before.size(), a_before.begin());
-        for (int k = 0; k < slab.count; ++k) {
-            const Slice<Code>& slice = slab.slices[static_cast<std::size_t>(k)];
-            if (slice.pixels.y0 <= j && j < slice.pixels.y1) {
-                taken += composite_row<blanks>(slab, slice, j, columns[static_cast<std::size_t>(k)], table,
-                                               a_before.data(), rays);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(slab.count); ++k) {
+            const Slice<Code>& slice = slab.slices[k];
+            const auto [i0, i1] = spans[k];
+            if (i0 < i1 && slice.pixels.y0 <= j && j < slice.pixels.y1) {
+                taken += composite_row<blanks>(slab, slice, i0, i1, j, columns[k], table,
+                                               a_before.data() + i0, rays);
             }
         }
+    }
+    return taken;
+}
+
+template <bool blanks, class Code>
+std::uint64_t composite_gathering(const Slab<Code>& slab, const OpacityTable& table, const Rays& rays) {
+    double scale = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(slab.count); ++k) {
+        scale = std::max(scale, std::abs(slab.slices[k].fast_scale));
+    }
+    // So many pixels lie within the row of voxels that there is room for.
+    const double room = (most_voxels - 3) / scale;
+    const int most = room >= widest_tile ? widest_tile : std::max(1, static_cast<int>(room));
+    const view::Rect pixels = pixels_of(slab);
+    std::uint64_t taken = 0;
+    for (int i = pixels.x0; i < pixels.x1; i += most) {
+        taken += composite_chunk<blanks>(slab, {i, pixels.y0, std::min(i + most, pixels.x1), pixels.y1},
+                                         table, rays);
     }
     return taken;
 }

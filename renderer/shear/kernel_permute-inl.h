@@ -28,6 +28,15 @@ inline constexpr int permuted_pixels = 32;
 inline constexpr int permuted_voxels = 64;
 static_assert(cell_steps == 127, "both weights are signed bytes, and codes times it signed words");
 
+// Where eight pixels lie, in cell_steps from a voxel: what place_of gives, undivided.
+HWY_INLINE __m512i steps_of_eight(double offset, double scale, int pixel, std::int64_t first_voxel) {
+    const __m512d pixels = _mm512_add_pd(_mm512_set1_pd(pixel), _mm512_setr_pd(0, 1, 2, 3, 4, 5, 6, 7));
+    const __m512d at = _mm512_add_pd(_mm512_mul_pd(pixels, _mm512_set1_pd(scale)), _mm512_set1_pd(offset));
+    return _mm512_sub_epi64(_mm512_cvttpd_epi64(_mm512_add_pd(_mm512_mul_pd(at, _mm512_set1_pd(cell_steps)),
+                                                              _mm512_set1_pd(0.5))),
+                            _mm512_set1_epi64(first_voxel * cell_steps));
+}
+
 // For the pixels of a chunk: which are wanted on a slice, and which voxels of the 64 from `first` on each
 // lies between.
 struct Permutation {
@@ -60,23 +69,17 @@ HWY_INLINE Permutation permutation_of(const Slab<std::uint8_t>& slab, const Slic
     }
     const double from = along_row(slice, slab.fast_pixel + i + begin);
     const double to = along_row(slice, slab.fast_pixel + i + begin + count - 1);
-    const auto least = static_cast<double>(slab.fast_first);
-    const double first = std::clamp(std::floor(std::min(from, to)), least, least + slab.fast_cells - 1);
+    const auto first = std::clamp(static_cast<std::int64_t>(std::min(from, to)), slab.fast_first,
+                                  slab.fast_first + slab.fast_cells - 1);
     // Pixels that are not wanted take some voxel or other.
     const __m512i most = _mm512_set1_epi32((permuted_voxels - 2) * cell_steps);
-    const __m512i first_steps = _mm512_set1_epi32(static_cast<int>(first) * cell_steps);
     const auto quarter = [&](int lane) HWY_ATTR {
-        const __m512d pixels =
-            _mm512_add_pd(_mm512_set1_pd(slab.fast_pixel + i + lane), _mm512_setr_pd(0, 1, 2, 3, 4, 5, 6, 7));
-        const __m512d at = _mm512_add_pd(_mm512_mul_pd(pixels, _mm512_set1_pd(slice.fast_scale)),
-                                         _mm512_set1_pd(slice.fast_offset));
-        return _mm512_cvttpd_epi32(
-            _mm512_add_pd(_mm512_mul_pd(at, _mm512_set1_pd(cell_steps)), _mm512_set1_pd(0.5)));
+        return _mm512_cvtsepi64_epi32(
+            steps_of_eight(slice.fast_offset, slice.fast_scale, slab.fast_pixel + i + lane, first));
     };
     const auto half = [&](int lane) HWY_ATTR {
         const __m512i steps = _mm512_inserti64x4(_mm512_castsi256_si512(quarter(lane)), quarter(lane + 8), 1);
-        const __m512i in_window = _mm512_min_epi32(
-            _mm512_max_epi32(_mm512_sub_epi32(steps, first_steps), _mm512_setzero_si512()), most);
+        const __m512i in_window = _mm512_min_epi32(_mm512_max_epi32(steps, _mm512_setzero_si512()), most);
         // Divided by cell_steps: exact for what is this small.
         const __m512i cell = _mm512_srli_epi32(_mm512_mullo_epi32(in_window, _mm512_set1_epi32(33027)), 22);
         const __m512i step =
@@ -99,39 +102,34 @@ HWY_INLINE Permutation permutation_of(const Slab<std::uint8_t>& slab, const Slic
     permutation.left = index(cell);
     permutation.right = index(_mm512_add_epi16(cell, _mm512_set1_epi16(1)));
     permutation.fraction = words_of_pixels(low, high, 0);
-    permutation.first = static_cast<std::ptrdiff_t>(first - least);
+    permutation.first = first - slab.fast_first;
     permutation.wanted = 0xffffffffU >> (permuted_pixels - count) << begin;
     return permutation;
 }
 
 // For the rows of a slab: where they lie among a slice's rows of voxels.
 struct RowPlaces {
-    std::array<std::int32_t, tallest_tile + 8>
-        offsets;  // of the row before, in voxels from the slice's first
+    std::array<std::int64_t, tallest_tile + 8> offsets;   // of the row before, from the slice's first voxel
     std::array<std::uint16_t, tallest_tile + 8> weights;  // of it and of the row behind, a byte each
 };
 
 HWY_INLINE void lay_rows(const Slab<std::uint8_t>& slab, const Slice<std::uint8_t>& slice,
                          RowPlaces& places) {
-    const __m512d first = _mm512_set1_pd(static_cast<double>(slab.slow_first));
-    const auto stride = _mm256_set1_epi32(static_cast<int>(slab.stride));
     for (int j = slice.pixels.y0; j < slice.pixels.y1; j += 8) {
-        const __m512d pixels =
-            _mm512_add_pd(_mm512_set1_pd(slab.slow_pixel + j), _mm512_setr_pd(0, 1, 2, 3, 4, 5, 6, 7));
-        const __m512d at = _mm512_add_pd(_mm512_mul_pd(pixels, _mm512_set1_pd(slice.slow_scale)),
-                                         _mm512_set1_pd(slice.slow_offset));
-        // As place_of, with what a float cannot hold exactly left out before.
-        const __m256i steps =
-            _mm256_sub_epi32(_mm512_cvttpd_epi32(_mm512_add_pd(_mm512_mul_pd(at, _mm512_set1_pd(cell_steps)),
-                                                               _mm512_set1_pd(0.5))),
-                             _mm512_cvttpd_epi32(_mm512_mul_pd(first, _mm512_set1_pd(cell_steps))));
-        const __m256i cell = _mm256_srli_epi32(_mm256_mullo_epi32(steps, _mm256_set1_epi32(33027)), 22);
-        const __m256i step = _mm256_sub_epi32(steps, _mm256_mullo_epi32(cell, _mm256_set1_epi32(cell_steps)));
-        const __m256i weights = _mm256_or_si256(_mm256_sub_epi32(_mm256_set1_epi32(cell_steps), step),
-                                                _mm256_slli_epi32(step, 8));
+        const __m512i steps =
+            steps_of_eight(slice.slow_offset, slice.slow_scale, slab.slow_pixel + j, slab.slow_first);
+        // Divided by cell_steps, by way of a product that is exact for all that a double may hold of it.
+        // A row on the last row of voxels belongs to the last cell.
+        const __m512i cell = _mm512_min_epi64(
+            _mm512_cvttpd_epi64(_mm512_mul_pd(_mm512_add_pd(_mm512_cvtepi64_pd(steps), _mm512_set1_pd(0.5)),
+                                              _mm512_set1_pd(1.0 / cell_steps))),
+            _mm512_set1_epi64(slab.slow_cells - 1));
+        const __m512i step = _mm512_sub_epi64(steps, _mm512_mullo_epi64(cell, _mm512_set1_epi64(cell_steps)));
+        const __m512i weights = _mm512_or_si512(_mm512_sub_epi64(_mm512_set1_epi64(cell_steps), step),
+                                                _mm512_slli_epi64(step, 8));
         const auto n = static_cast<std::size_t>(j);
-        _mm256_storeu_si256(reinterpret_cast<__m256i*>(&places.offsets[n]), _mm256_mullo_epi32(cell, stride));
-        _mm_storeu_si128(reinterpret_cast<__m128i*>(&places.weights[n]), _mm256_cvtepi32_epi16(weights));
+        _mm512_storeu_si512(&places.offsets[n], _mm512_mullo_epi64(cell, _mm512_set1_epi64(slab.stride)));
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(&places.weights[n]), _mm512_cvtepi64_epi16(weights));
     }
 }
 
@@ -143,6 +141,8 @@ HWY_INLINE __m512i codes_along(const Slab<std::uint8_t>& slab, const Slice<std::
     const std::ptrdiff_t from = places.offsets[row] + permutation.first;
     const std::ptrdiff_t stride = slab.stride;
     __m512i low, high;
+    _mm_prefetch(slice.voxels + from + slab.ahead, _MM_HINT_T0);
+    _mm_prefetch(slice.voxels + from + slab.ahead + stride + 48, _MM_HINT_T0);
     const auto across = [&](const std::uint8_t* voxels) HWY_ATTR {
         const __m512i row0 = _mm512_loadu_si512(voxels + from);
         const __m512i row1 = _mm512_loadu_si512(voxels + from + stride);
@@ -420,7 +420,9 @@ std::uint64_t composite_permuting(const Slab<std::uint8_t>& slab, const OpacityT
     for (std::size_t k = 0; k < static_cast<std::size_t>(slab.count); ++k) {
         lay_rows(slab, slab.slices[k], prepared.rows[k]);
     }
-    for (int i = pixels.x0; i < pixels.x1; i += most) {
+    // Wide spans are cut where vectors of rays begin.
+    const bool wide = most == permuted_pixels && pixels.width() > permuted_pixels;
+    for (int i = wide ? pixels.x0 / permuted_pixels * permuted_pixels : pixels.x0; i < pixels.x1; i += most) {
         for (std::size_t k = 0; k < static_cast<std::size_t>(slab.count); ++k) {
             prepared.permutations[k] = permutation_of(slab, slab.slices[k], i, most);
         }

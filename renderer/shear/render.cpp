@@ -38,7 +38,7 @@ void render_window(Frame& frame, std::span<const Code> codes, const FacePlan& pl
 }
 
 RenderStats count(const Frame& frame) {
-    RenderStats stats{.samples = frame.samples.load(), .bricks_total = frame.volume.bricks().size()};
+    RenderStats stats{.samples = frame.samples.load(), .bricks_total = frame.met.size()};
     for (std::size_t i = 0; i < frame.met.size(); ++i) {
         stats.bricks_empty += frame.classification.opaque[i] == 0 ? 1 : 0;
         stats.bricks_rendered += frame.met[i].load(std::memory_order_relaxed);
@@ -52,10 +52,12 @@ std::vector<Window> render(const BrickVolume& volume, const Classification& clas
                            const view::Factorisation& factorisation, base::Workers& workers,
                            RenderStats* stats, const std::stop_token& stop) {
     base::check(factorisation.lattice.n == volume.cube(), "a factorisation is that of the volume's cube");
-    Frame frame{.volume = volume, .classification = classification, .met = BricksMet(volume.bricks().size())};
+    Frame frame{.volume = volume,
+                .classification = classification,
+                .met = BricksMet(volume.bricks().ranges().size())};
     std::vector<Window> windows;
     for (std::size_t face = 0; face < factorisation.faces.size() && !stop.stop_requested(); ++face) {
-        const FacePlan plan(volume, factorisation, static_cast<int>(face), workers);
+        const FacePlan plan(volume, factorisation, static_cast<int>(face));
         const Rect rect = plan.turn(plan.window());
         if (rect.empty()) {
             continue;

@@ -1,7 +1,6 @@
 #include "renderer/shear/tile.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -10,45 +9,36 @@ namespace shearwater::shear {
 
 using view::PixelRange;
 using view::Rect;
-using view::SliceRange;
-using volume::Index3;
+using view::SliceMap;
 
 namespace {
 
-// The pixels whose samples lie in the micro-bricks [first, end) of a brick along one axis, those at its
-// ends taking what the brick owns there. Neighbours' ranges meet.
-PixelRange pixels_of_micro_bricks(const PixelRange& whole, double offset, double scale, int first, int end,
-                                  int count) {
-    const auto boundary = [&](int micro) {
-        const double at = (static_cast<double>(micro * MicroBricks::edge) - offset) / scale;
-        return static_cast<int>(
-            std::clamp(std::ceil(at), static_cast<double>(whole.first), static_cast<double>(whole.last)));
-    };
-    if (scale > 0) {
-        return {first == 0 ? whole.first : boundary(first), end == count ? whole.last : boundary(end)};
-    }
-    return {end == count ? whole.first : boundary(end), first == 0 ? whole.last : boundary(first)};
-}
-
-// The next run of set bits of a row of micro-bricks from `from` on; first == end where there is none.
-struct Run {
-    int first, end;
-};
-Run next_run(unsigned bits, int from) {
-    bits &= ~0U << from;
-    if (bits == 0) {
-        return {0, 0};
-    }
-    const int first = std::countr_zero(bits);
-    return {first, first + std::countr_one(bits >> first)};
-}
+constexpr std::int64_t micro_edge = BrickVolume::micro_edge;
 
 // Extinctions of nodes that differ by less than these halvings of light a step are not told apart: as much as
 // one opacity in a hundred, at most half of which a sample is wrong by, this way or that.
 constexpr float jump_seen = 1.0F / 64;
 
-int micro_bricks_along(std::int64_t cells) {
-    return static_cast<int>((cells + MicroBricks::edge - 1) / MicroBricks::edge);
+// The coordinates that the first and the last of some pixels lie at, the lesser first.
+std::pair<double, double> ends_of(double offset, double scale, int first, int end) {
+    const double a = offset + scale * first;
+    const double b = offset + scale * (end - 1);
+    return {std::min(a, b), std::max(a, b)};
+}
+
+// Of a range of pixels those whose samples lie in the voxels [lo, hi), or on the sub-volume's side of an end
+// of it where `open`. Neighbours' ranges meet.
+PixelRange pixels_within(const PixelRange& range, double offset, double scale, double lo, double hi,
+                         bool open_lo, bool open_hi) {
+    const auto boundary = [&](double voxel) {
+        return static_cast<int>(std::clamp(std::ceil((voxel - offset) / scale),
+                                           static_cast<double>(range.first),
+                                           static_cast<double>(range.last)));
+    };
+    if (scale > 0) {
+        return {open_lo ? range.first : boundary(lo), open_hi ? range.last : boundary(hi)};
+    }
+    return {open_hi ? range.first : boundary(hi), open_lo ? range.last : boundary(lo)};
 }
 
 }  // namespace
@@ -57,23 +47,57 @@ template <class Code>
 Tile<Code>::Tile(const BrickVolume& volume, std::span<const Code> codes, const Classification& classification,
                  const FacePlan& plan, BricksMet& met)
     : volume_(volume),
-      codes_(codes),
       classification_(classification),
       plan_(plan),
       met_(met),
+      voxels_(volume, codes, plan),
       planes_(std::make_unique<Planes>()) {}
 
 template <class Code>
 void Tile<Code>::render(const Rect& rect) {
     rect_ = rect;
+    prepare_rays();
+    // The slices of one layer of micro-bricks go together, as many as a slab takes.
+    std::array<Slice<Code>, Slab<Code>::max_slices> slices;
+    std::array<std::int64_t, Slab<Code>::max_slices> numbers;
+    std::size_t count = 0;
+    std::int64_t layer = -1;
+    const auto flush = [&] {
+        if (count > 0) {
+            render_slices(Slices(slices).first(count), std::span(numbers).first(count));
+        }
+        count = 0;
+    };
+    for (std::int64_t n = 0; n < plan_.slice_count(); ++n) {
+        const std::int64_t k = plan_.slice(n);
+        const std::int64_t layer_of_k = micro_layer(k);
+        if (count == slices.size() || layer_of_k != layer) {
+            flush();
+            if (layer_of_k != layer && opaque()) {
+                return;
+            }
+        }
+        layer = layer_of_k;
+        const Slice<Code> slice = slice_of(k);
+        if (!slice.pixels.empty()) {
+            numbers[count] = k;
+            slices[count++] = slice;
+        }
+    }
+    flush();
+}
+
+template <class Code>
+void Tile<Code>::prepare_rays() {
     for (Plane* const plane : {&planes_->r, &planes_->g, &planes_->b, &planes_->a}) {
         plane->fill(0);
     }
     const float unit = classification_.table.depth_unit();
     float longest = 0;
-    for (int j = rect.y0; j < rect.y1; ++j) {
-        const std::span<float> row(&planes_->steps[slot(rect.x0, j)], static_cast<std::size_t>(rect.width()));
-        plan_.steps(rect.x0, j, row);
+    for (int j = rect_.y0; j < rect_.y1; ++j) {
+        const std::span<float> row(&planes_->steps[slot(rect_.x0, j)],
+                                   static_cast<std::size_t>(rect_.width()));
+        plan_.steps(rect_.x0, j, row);
         for (float& step : row) {
             // Finite, so that times no extinction it is nothing.
             step = std::min(step * unit, 1e38F);
@@ -81,12 +105,6 @@ void Tile<Code>::render(const Rect& rect) {
         }
     }
     between_nodes_ = classification_.table.steepest() * longest > jump_seen;
-    for (const std::int64_t layer : plan_.layers()) {
-        render_layer(layer);
-        if (opaque()) {
-            return;
-        }
-    }
 }
 
 template <class Code>
@@ -100,196 +118,206 @@ bool Tile<Code>::opaque() const {
     return true;
 }
 
-// The columns (or rows) of bricks with samples in [lo, hi) on some of the slices. A voxel plane's place
-// in the image changes one way only from slice to slice, so the end slices bound the others.
+// The layer, counted from the sub-volume's first, of the cells behind the slice.
 template <class Code>
-std::vector<std::int64_t> Tile<Code>::met_by(const std::vector<std::int64_t>& places,
-                                             const SliceRange& slices, int lo, int hi,
-                                             const PixelRange& (FacePlan::*pixels)(std::int64_t, std::int64_t)
-                                                 const) const {
-    std::vector<std::int64_t> found;
-    for (const std::int64_t place : places) {
-        const PixelRange& near = (plan_.*pixels)(slices.first, place);
-        const PixelRange& far = (plan_.*pixels)(slices.last, place);
-        if (std::min(near.first, far.first) < hi && std::max(near.last, far.last) > lo) {
-            found.push_back(place);
-        }
-    }
-    return found;
+std::int64_t Tile<Code>::micro_layer(std::int64_t k) const {
+    const int axis = plan_.face().axis;
+    const auto plane = static_cast<std::int64_t>(plan_.factorisation().slice_place(k));
+    const std::int64_t cell = std::min(plane, volume_.box().hi[static_cast<std::size_t>(axis)] - 1);
+    return cell / micro_edge - volume_.micro_bricks().first(axis);
 }
 
+// With the pixels of the tile that the sub-volume owns on it, counted from the tile's first; its voxels are
+// found later.
 template <class Code>
-void Tile<Code>::render_layer(std::int64_t layer) {
-    const SliceRange slices = plan_.slices_of_layer(layer);
-    if (slices.empty()) {
-        return;
-    }
-    const auto columns = met_by(plan_.columns(), slices, rect_.x0, rect_.x1, &FacePlan::pixels_of_column);
-    const auto rows = met_by(plan_.rows(), slices, rect_.y0, rect_.y1, &FacePlan::pixels_of_row);
-    Index3 place{};
-    place[static_cast<std::size_t>(plan_.face().axis)] = layer;
-    for (const std::int64_t row : rows) {
-        place[static_cast<std::size_t>(plan_.slow_axis())] = row;
-        for (const std::int64_t column : columns) {
-            place[static_cast<std::size_t>(plan_.fast_axis())] = column;
-            render_brick(volume_.brick(place[0], place[1], place[2]), slices, column, row);
-        }
-    }
+Slice<Code> Tile<Code>::slice_of(std::int64_t k) const {
+    const SliceMap map = plan_.slice_map(plan_.factorisation().slice_place(k));
+    const Rect pixels = intersection(rect_, plan_.owned(k));
+    return {
+        .voxels = nullptr,
+        .next = nullptr,
+        .fast_offset = map.u_offset,
+        .fast_scale = map.u_scale,
+        .slow_offset = map.v_offset,
+        .slow_scale = map.v_scale,
+        .pixels = {pixels.x0 - rect_.x0, pixels.y0 - rect_.y0, pixels.x1 - rect_.x0, pixels.y1 - rect_.y0},
+        .lengths = nullptr};
 }
 
-// The voxels of the brick that the tile's pixels may need: those of its opaque micro-bricks which the
-// samples of the two end slices span.
+// The voxels that the samples of some slices lie between.
 template <class Code>
-VoxelRanges Tile<Code>::needed_of(const Brick& brick, std::uint64_t opaque, const SliceRange& slices) const {
+VoxelRegion Tile<Code>::region_of(Slices slices, std::span<const std::int64_t> numbers) const {
+    const volume::Box& box = volume_.box();
     const std::array<int, 3> axes{plan_.fast_axis(), plan_.slow_axis(), plan_.face().axis};
-    VoxelRanges needed = MicroMask(opaque, plan_).extent();
-    const auto near = plan_.slice_map(plan_.factorisation().slice_place(slices.first));
-    const auto far = plan_.slice_map(plan_.factorisation().slice_place(slices.last));
-    const auto span = [](double offset, double scale, int first, int end) {
-        const double a = offset + scale * first;
-        const double b = offset + scale * (end - 1);
-        return std::pair(std::min(a, b), std::max(a, b));
+    std::array<std::pair<double, double>, 3> ends;
+    ends.fill({1e300, -1e300});
+    const auto add = [](std::pair<double, double>& to, const std::pair<double, double>& more) {
+        to = {std::min(to.first, more.first), std::max(to.second, more.second)};
     };
+    for (std::size_t n = 0; n < slices.size(); ++n) {
+        const Slice<Code>& slice = slices[n];
+        const Rect& pixels = slice.pixels;
+        add(ends[0],
+            ends_of(slice.fast_offset, slice.fast_scale, pixels.x0 + rect_.x0, pixels.x1 + rect_.x0));
+        add(ends[1],
+            ends_of(slice.slow_offset, slice.slow_scale, pixels.y0 + rect_.y0, pixels.y1 + rect_.y0));
+        const double w = plan_.factorisation().slice_place(numbers[n]);
+        add(ends[2], {w, w});
+    }
+    VoxelRegion region;
     for (std::size_t n = 0; n < 3; ++n) {
-        const auto lo = brick.box.lo[static_cast<std::size_t>(axes[n])];
-        const std::int64_t cells = brick.box.cells(axes[n]);
-        auto& [first, last] = needed[n];
-        first *= MicroBricks::edge;
-        last = std::min((last + 1) * MicroBricks::edge, cells);
-        if (n == 2) {
-            continue;
-        }
-        double least = static_cast<double>(cells), most = 0;
-        for (const view::SliceMap& map : {near, far}) {
-            const auto [a, b] = n == 0 ? span(map.u_offset, map.u_scale, rect_.x0, rect_.x1)
-                                       : span(map.v_offset, map.v_scale, rect_.y0, rect_.y1);
-            least = std::min(least, a - static_cast<double>(lo));
-            most = std::max(most, b - static_cast<double>(lo));
-        }
-        first = std::max(first, static_cast<std::int64_t>(std::max(std::floor(least), 0.0)));
-        last = std::min(last, static_cast<std::int64_t>(std::max(std::floor(most), 0.0)) + 1);
-        first = std::min(first, last);
+        const std::int64_t lo = box.lo[static_cast<std::size_t>(axes[n])];
+        const std::int64_t hi = box.hi[static_cast<std::size_t>(axes[n])];
+        region.lo[n] = std::clamp(static_cast<std::int64_t>(std::floor(ends[n].first)), lo, hi - 1);
+        region.hi[n] = std::clamp(static_cast<std::int64_t>(std::floor(ends[n].second)) + 1, lo + 1, hi);
     }
-    return needed;
+    // A slice on a plane needs none behind it.
+    region.hi[2] = std::clamp(static_cast<std::int64_t>(std::ceil(ends[2].second)), region.lo[2],
+                              box.hi[static_cast<std::size_t>(axes[2])]);
+    return region;
 }
 
+// Slices that lie in one layer of micro-bricks, each with some pixels.
 template <class Code>
-void Tile<Code>::render_brick(const Brick& brick, const SliceRange& slices, std::int64_t column,
-                              std::int64_t row) {
-    const auto number = static_cast<std::size_t>(&brick - volume_.bricks().data());
-    const std::uint64_t opaque = classification_.opaque[number];
-    if (opaque == 0) {
-        return;
-    }
-    const auto oriented = orient(brick, codes_, opaque, plan_, needed_of(brick, opaque, slices), scratch_);
-    // The slices of one layer of micro-bricks go together, as many as a slab takes.
-    std::array<SlicePixels, Slab<Code>::max_slices> together;
-    std::size_t count = 0;
-    std::int64_t layer = 0;
-    bool met = false;
-    const auto flush = [&] {
-        if (count > 0) {
-            render_slices(oriented, std::span(together).first(count));
-            met = true;
-        }
-        count = 0;
+void Tile<Code>::render_slices(Slices slices, std::span<const std::int64_t> numbers) {
+    const MicroLayer layer(volume_, classification_, plan_, micro_layer(numbers.front()));
+    const VoxelRegion region = region_of(slices, numbers);
+    const CodeGrid& grid = volume_.micro_bricks();
+    const std::array<int, 2> axes{plan_.fast_axis(), plan_.slow_axis()};
+    const auto micro_run = [&](std::size_t n) {
+        const std::int64_t first = grid.first(axes[n]);
+        return MicroRun{region.lo[n] / micro_edge - first, (region.hi[n] - 1) / micro_edge - first + 1};
     };
-    for (std::int64_t n = 0; n <= slices.last - slices.first; ++n) {
-        const std::int64_t k = plan_.face().sign > 0 ? slices.first + n : slices.last - n;
-        const std::int64_t layer_of_k = oriented.micro_layer(plan_.factorisation().slice_place(k));
-        if (count == together.size() || layer_of_k != layer) {
-            flush();
-        }
-        layer = layer_of_k;
-        const PixelRange& fast = plan_.pixels_of_column(k, column);
-        const PixelRange& slow = plan_.pixels_of_row(k, row);
-        const Rect pixels = intersection(rect_, {fast.first, slow.first, fast.last, slow.last});
-        if (!pixels.empty()) {
-            together[count++] = {
-                k, {pixels.x0 - rect_.x0, pixels.y0 - rect_.y0, pixels.x1 - rect_.x0, pixels.y1 - rect_.y0}};
-        }
-    }
-    flush();
-    if (met) {
-        met_[number].store(1, std::memory_order_relaxed);
-    }
-}
-
-// Pixels are counted from the tile's first.
-template <class Code>
-Slice<Code> Tile<Code>::slice_of(const OrientedBrick<Code>& brick, const SlicePixels& slice) const {
-    const double w = plan_.factorisation().slice_place(slice.k);
-    const double deep = w - static_cast<double>(brick.lo[2]);
-    const auto plane = static_cast<std::int64_t>(deep);
-    const Code* const voxels = brick.voxels + plane * brick.plane_stride;
-    const view::SliceMap map = plan_.slice_map(w);
-    return {.voxels = voxels,
-            .next = static_cast<double>(plane) < deep ? voxels + brick.plane_stride : nullptr,
-            .fast_offset = map.u_offset,
-            .fast_scale = map.u_scale,
-            .slow_offset = map.v_offset,
-            .slow_scale = map.v_scale,
-            .pixels = slice.pixels,
-            .lengths = planes_->steps.data()};
-}
-
-// Slices that lie in one layer of micro-bricks.
-template <class Code>
-void Tile<Code>::render_slices(const OrientedBrick<Code>& brick, std::span<const SlicePixels> slices) {
-    const double w = plan_.factorisation().slice_place(slices.front().k);
-    const MicroPlane opaque = brick.opaque.layer(brick.micro_layer(w));
-    if (opaque == 0) {
+    const MicroRun fast = micro_run(0), slow = micro_run(1);
+    if (layer.uniform(fast, slow)) {
+        render_part(slices, numbers, layer.at(fast.first, slow.first), true);
         return;
     }
-    Slab<Code> slab{.stride = brick.row_stride,
-                    .fast_first = brick.lo[0],
-                    .slow_first = brick.lo[1],
+    std::vector<MicroLayer::Run> runs;
+    std::array<Slice<Code>, Slab<Code>::max_slices> part;
+    std::array<std::int64_t, Slab<Code>::max_slices> part_numbers;
+    for (const std::int64_t row : front_to_back(plan_, grid, axes[1], slow)) {
+        layer.runs(fast, row, runs);
+        for (const MicroLayer::Run& run : runs) {
+            std::size_t count = 0;
+            for (std::size_t n = 0; n < slices.size(); ++n) {
+                const Slice<Code>& slice = slices[n];
+                const auto within = [&](std::size_t axis, const PixelRange& pixels, double offset,
+                                        double scale, const MicroRun& micro, const MicroRun& all) {
+                    const std::int64_t first = grid.first(axes[axis]);
+                    return pixels_within(pixels, offset, scale,
+                                         static_cast<double>((first + micro.first) * micro_edge),
+                                         static_cast<double>((first + micro.end) * micro_edge),
+                                         micro.first == all.first, micro.end == all.end);
+                };
+                const PixelRange columns = within(0, {slice.pixels.x0, slice.pixels.x1},
+                                                  slice.fast_offset + slice.fast_scale * rect_.x0,
+                                                  slice.fast_scale, run.along, fast);
+                const PixelRange rows = within(1, {slice.pixels.y0, slice.pixels.y1},
+                                               slice.slow_offset + slice.slow_scale * rect_.y0,
+                                               slice.slow_scale, {row, row + 1}, slow);
+                if (!columns.empty() && !rows.empty()) {
+                    part[count] = slice;
+                    part[count].pixels = {columns.first, rows.first, columns.last, rows.last};
+                    part_numbers[count++] = numbers[n];
+                }
+            }
+            if (count > 0) {
+                render_part(Slices(part).first(count), std::span(part_numbers).first(count), run.content,
+                            false);
+            }
+        }
+    }
+}
+
+// Parts of slices in micro-bricks of one content. Where it is the whole of them, so will the next slices be.
+template <class Code>
+void Tile<Code>::render_part(Slices slices, std::span<const std::int64_t> numbers, Content content,
+                             bool whole) {
+    if (content == Content::transparent) {
+        return;
+    }
+    const VoxelRegion region = region_of(slices, numbers);
+    VoxelRegion more = region;
+    if (whole) {
+        // As far as the rays go sideways until the slices of the next layer.
+        const std::int64_t axis_lo = volume_.box().lo[static_cast<std::size_t>(plan_.face().axis)];
+        const std::int64_t axis_hi = volume_.box().hi[static_cast<std::size_t>(plan_.face().axis)];
+        more.lo[2] = std::max(region.lo[2] / (2 * micro_edge) * (2 * micro_edge), axis_lo);
+        more.hi[2] = std::max(region.hi[2], std::min(more.lo[2] + 2 * micro_edge - 1, axis_hi));
+        const std::array<int, 2> axes{plan_.fast_axis(), plan_.slow_axis()};
+        for (std::size_t n = 0; n < 2; ++n) {
+            const std::int64_t lo = volume_.box().lo[static_cast<std::size_t>(axes[n])];
+            const std::int64_t hi = volume_.box().hi[static_cast<std::size_t>(axes[n])];
+            more.lo[n] = std::max(region.lo[n] - micro_edge, lo);
+            more.hi[n] = std::min(region.hi[n] + micro_edge, hi);
+        }
+    }
+    const auto place = voxels_.find(region, more);
+    Slab<Code> slab{.fast_first = region.lo[0],
+                    .slow_first = region.lo[1],
+                    .fast_cells = region.hi[0] - region.lo[0],
+                    .slow_cells = region.hi[1] - region.lo[1],
+                    .stride = place.row_stride,
+                    .ahead = place.turned ? 0 : ahead_of(numbers.front(), place),
                     .fast_pixel = rect_.x0,
                     .slow_pixel = rect_.y0,
-                    .fast_cells = static_cast<int>(brick.cells[0]),
-                    .slow_cells = static_cast<int>(brick.cells[1]),
-                    .blanks = brick.blanks,
+                    .blanks = content == Content::with_blanks,
                     .between_nodes = between_nodes_,
-                    .count = 0,
+                    .count = static_cast<int>(slices.size()),
                     .slices = {}};
-    std::array<Slice<Code>, Slab<Code>::max_slices> whole;
     for (std::size_t n = 0; n < slices.size(); ++n) {
-        whole[n] = slice_of(brick, slices[n]);
-        whole[n].lengths = lengths_on(slices[n].k, slices[n].pixels, planes_->lengths[n]);
+        const double w = plan_.factorisation().slice_place(numbers[n]);
+        const auto plane = static_cast<std::int64_t>(w);
+        Slice<Code>& slice = slab.slices[n];
+        slice = slices[n];
+        slice.voxels = place.first + (plane - region.lo[2]) * place.plane_stride;
+        slice.next = static_cast<double>(plane) < w ? slice.voxels + place.plane_stride : nullptr;
+        slice.lengths = lengths_on(numbers[n], slice.pixels, planes_->lengths[n]);
     }
-    const int fast_count = micro_bricks_along(brick.cells[0]);
-    const int slow_count = micro_bricks_along(brick.cells[1]);
-    const auto bits_of = [opaque](int slow) { return static_cast<unsigned>(opaque >> (4 * slow)) & 15; };
-    for (int first = 0; first < slow_count;) {
-        const unsigned bits = bits_of(first);
-        int end = first + 1;
-        while (end < slow_count && bits_of(end) == bits) {
-            ++end;
-        }
-        for (Run run = next_run(bits, 0); run.first < run.end; run = next_run(bits, run.end)) {
-            slab.count = 0;
-            for (std::size_t n = 0; n < slices.size(); ++n) {
-                Slice<Code>& slice = slab.slices[static_cast<std::size_t>(slab.count)];
-                slice = whole[n];
-                const auto offset = [&](double of_cube, double scale, int pixel, std::int64_t voxel) {
-                    return of_cube + scale * pixel - static_cast<double>(voxel);
-                };
-                const PixelRange columns =
-                    pixels_of_micro_bricks({slice.pixels.x0, slice.pixels.x1},
-                                           offset(slice.fast_offset, slice.fast_scale, rect_.x0, brick.lo[0]),
-                                           slice.fast_scale, run.first, run.end, fast_count);
-                const PixelRange rows =
-                    pixels_of_micro_bricks({slice.pixels.y0, slice.pixels.y1},
-                                           offset(slice.slow_offset, slice.slow_scale, rect_.y0, brick.lo[1]),
-                                           slice.slow_scale, first, end, slow_count);
-                slice.pixels = {columns.first, rows.first, columns.last, rows.last};
-                slab.count += slice.pixels.empty() ? 0 : 1;
+    const std::uint64_t taken = composite_slab(slab, classification_.table, rays());
+    samples_ += taken;
+    if (taken > 0) {
+        note_met(region);
+    }
+}
+
+// How far the voxels lie that the tile's middle needs a layer of micro-bricks later.
+template <class Code>
+std::ptrdiff_t Tile<Code>::ahead_of(std::int64_t k, const typename TileVoxels<Code>::Place& place) const {
+    const double w = plan_.factorisation().slice_place(k);
+    const SliceMap here = plan_.slice_map(w);
+    const SliceMap there = plan_.slice_map(w + static_cast<double>(plan_.face().sign * micro_edge));
+    const double i = 0.5 * (rect_.x0 + rect_.x1);
+    const double j = 0.5 * (rect_.y0 + rect_.y1);
+    const double fast = there.u_offset + there.u_scale * i - (here.u_offset + here.u_scale * i);
+    const double slow = there.v_offset + there.v_scale * j - (here.v_offset + here.v_scale * j);
+    return plan_.face().sign * micro_edge * place.plane_stride +
+           static_cast<std::ptrdiff_t>(slow) * place.row_stride + static_cast<std::ptrdiff_t>(fast);
+}
+
+template <class Code>
+void Tile<Code>::note_met(const VoxelRegion& region) {
+    const CodeGrid& bricks = volume_.bricks();
+    const std::array<int, 3> axes{plan_.fast_axis(), plan_.slow_axis(), plan_.face().axis};
+    volume::Index3 first, last;
+    for (std::size_t n = 0; n < 3; ++n) {
+        const auto a = static_cast<std::size_t>(axes[n]);
+        first[a] = region.lo[n] / bricks.edge() - bricks.first(axes[n]);
+        last[a] =
+            std::min((region.hi[n] - 1) / bricks.edge() - bricks.first(axes[n]), bricks.counts()[a] - 1);
+        first[a] = std::min(first[a], last[a]);
+    }
+    volume::Index3 at;
+    for (at[2] = first[2]; at[2] <= last[2]; ++at[2]) {
+        for (at[1] = first[1]; at[1] <= last[1]; ++at[1]) {
+            for (at[0] = first[0]; at[0] <= last[0]; ++at[0]) {
+                const std::size_t brick = bricks.index(at);
+                if (classification_.opaque[brick] != 0) {
+                    met_[brick].store(1, std::memory_order_relaxed);
+                }
             }
-            if (slab.count > 0) {
-                samples_ += composite_slab(slab, classification_.table, rays());
-            }
         }
-        first = end;
     }
 }
 

@@ -123,7 +123,7 @@ void warp_view(benchmark::State& state, view::Projection projection, double dist
     const view::ImageSize size{side, side};
     const view::Camera camera =
         view::camera_on({static_cast<double>(state.range(3)), 20, distance}, lattice, projection, fov);
-    const view::Factorisation f = view::factorise(camera, size, lattice, 1);
+    const view::Factorisation f = view::factorise(camera, size, lattice, {1});
     const std::vector<Window> windows = windows_of(f, state.range(1) != 0);
     base::Workers workers(static_cast<int>(state.range(2)));
     for (auto _ : state) {

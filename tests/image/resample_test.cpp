@@ -31,7 +31,7 @@ void expect_near(const RgbaF& p, const RgbaF& q, float tolerance, const std::str
 // A face seen from in front of it, and a window of it with noise in an oval, transparent in its corners.
 class ResampleSpan : public testing::Test {
   protected:
-    ResampleSpan() : f_(view::factorise(view::camera_on({}, lattice_), {90, 70}, lattice_, 1)) {}
+    ResampleSpan() : f_(view::factorise(view::camera_on({}, lattice_), {90, 70}, lattice_, {1})) {}
 
     Window window(const Rect& rect) const {
         std::mt19937 random(3);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "tests/support/reference_cubes.h"
@@ -35,29 +36,48 @@ class WatchedCube final : public volume::VoxelSource {
 
 template <class Code>
 void expect_codes(const BrickVolume& volume, std::span<const Code> codes, const FloatCube& cube) {
-    std::int64_t cells = 0;
-    for (const Brick& brick : volume.bricks()) {
-        ASSERT_TRUE(volume.box().contains(brick.box));
-        cells += brick.box.cells(0) * brick.box.cells(1) * brick.box.cells(2);
-        std::uint16_t min = std::numeric_limits<std::uint16_t>::max(), max = 0;
-        bool blanks = false;
-        std::size_t n = brick.first;
-        for (std::int64_t z = brick.box.lo[2]; z <= brick.box.hi[2]; ++z) {
-            for (std::int64_t y = brick.box.lo[1]; y <= brick.box.hi[1]; ++y) {
-                for (std::int64_t x = brick.box.lo[0]; x <= brick.box.hi[0]; ++x, ++n) {
-                    const auto code = volume.mapping().code(static_cast<double>(cube.at(x, y, z)));
-                    ASSERT_EQ(codes[n], code);
-                    blanks = blanks || code == 0;
-                    min = code == 0 ? min : std::min(min, code);
-                    max = std::max(max, code);
-                }
+    const Box& box = volume.box();
+    for (std::int64_t z = box.lo[2]; z <= box.hi[2]; ++z) {
+        for (std::int64_t y = box.lo[1]; y <= box.hi[1]; ++y) {
+            for (std::int64_t x = box.lo[0]; x <= box.hi[0]; ++x) {
+                ASSERT_EQ(codes[volume.offset({x, y, z})],
+                          volume.mapping().code(static_cast<double>(cube.at(x, y, z))));
             }
         }
-        EXPECT_EQ(brick.min, min);
-        EXPECT_EQ(brick.max, max);
-        EXPECT_EQ(brick.has_blanks, blanks);
     }
-    EXPECT_EQ(cells, volume.box().cells(0) * volume.box().cells(1) * volume.box().cells(2));
+}
+
+// What occurs on the planes of one cube of a grid, voxel by voxel.
+CodeRange range_of(const BrickVolume& volume, const CodeGrid& grid, const Index3& at, const FloatCube& cube) {
+    Box part;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        const std::int64_t start = (grid.first(axis) + at[a]) * grid.edge();
+        part.lo[a] = std::max(start, volume.box().lo[a]);
+        part.hi[a] = std::min(start + grid.edge(), volume.box().hi[a]);
+    }
+    CodeRange range;
+    for (std::int64_t z = part.lo[2]; z <= part.hi[2]; ++z) {
+        for (std::int64_t y = part.lo[1]; y <= part.hi[1]; ++y) {
+            for (std::int64_t x = part.lo[0]; x <= part.hi[0]; ++x) {
+                const auto code = volume.mapping().code(static_cast<double>(cube.at(x, y, z)));
+                range.add(code == 0 ? CodeRange{.blanks = true} : CodeRange{code, code, false});
+            }
+        }
+    }
+    return range;
+}
+
+void expect_ranges(const BrickVolume& volume, const CodeGrid& grid, const FloatCube& cube) {
+    Index3 at;
+    for (at[2] = 0; at[2] < grid.counts()[2]; ++at[2]) {
+        for (at[1] = 0; at[1] < grid.counts()[1]; ++at[1]) {
+            for (at[0] = 0; at[0] < grid.counts()[0]; ++at[0]) {
+                ASSERT_EQ(grid.ranges()[grid.index(at)], range_of(volume, grid, at, cube))
+                    << at[0] << ", " << at[1] << ", " << at[2];
+            }
+        }
+    }
 }
 
 FloatCube spotted_cube(const Index3& n) {
@@ -84,6 +104,8 @@ TEST(BrickVolume, HoldsEveryVoxelsCode) {
                 if (slab == 4000U || slab == 1U) {
                     bits == 8 ? expect_codes(*volume, volume->codes8(), cube)
                               : expect_codes(*volume, volume->codes16(), cube);
+                    expect_ranges(*volume, volume->micro_bricks(), cube);
+                    expect_ranges(*volume, volume->bricks(), cube);
                 }
                 if (box.voxels() > 10000 && slab == 1U) {
                     break;
@@ -93,13 +115,28 @@ TEST(BrickVolume, HoldsEveryVoxelsCode) {
     }
 }
 
+// A source that lets all workers read at once gives the same.
+TEST(BrickVolume, LoadsAtOnceWhatItLoadsInTurn) {
+    FloatCube cube = spotted_cube({130, 121, 66});
+    base::Workers one(1), three(3);
+    const Box box{{3, 0, 5}, {129, 117, 65}};
+    ASSERT_TRUE(cube.concurrent());
+    const auto together = BrickVolume::load(cube, box, cube.n(), {}, three);
+    WatchedCube in_turn(cube);
+    const auto apart = BrickVolume::load(in_turn, box, cube.n(), {}, one);
+    ASSERT_TRUE(together.has_value() && apart.has_value());
+    EXPECT_TRUE(std::ranges::equal(together->codes8(), apart->codes8()));
+    EXPECT_TRUE(std::ranges::equal(together->micro_bricks().ranges(), apart->micro_bricks().ranges()));
+}
+
 TEST(BrickVolume, LaysBricksOnTheCubesGrid) {
     base::Workers workers(1);
     FloatCube cube = test::noise_cube({70, 41, 66});
     const auto volume = test::bricks_of(cube, {{20, 0, 32}, {69, 40, 65}}, workers);
-    EXPECT_EQ(volume.grid(), (Index3{3, 2, 2}));
-    EXPECT_EQ(volume.brick(0, 0, 0).box, (Box{{20, 0, 32}, {32, 32, 64}}));
-    EXPECT_EQ(volume.brick(2, 1, 1).box, (Box{{64, 32, 64}, {69, 40, 65}}));
+    EXPECT_EQ(volume.bricks().counts(), (Index3{3, 2, 2}));
+    EXPECT_EQ(volume.micro_bricks().counts(), (Index3{7, 5, 5}));
+    EXPECT_EQ(volume.bricks().first(2), 1);
+    EXPECT_EQ(volume.micro_bricks().first(0), 2);
 }
 
 TEST(BrickVolume, TakesLittleMoreThanItsVoxels) {

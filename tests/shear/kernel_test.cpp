@@ -119,13 +119,14 @@ struct Trial {
         for (float& length : lengths) {
             length = 0.25F + static_cast<float>(random() % 8) * 0.25F;
         }
-        slab = {.stride = stride,
-                .fast_first = 5,
+        slab = {.fast_first = 5,
                 .slow_first = 7,
-                .fast_pixel = 100,
-                .slow_pixel = 60,
                 .fast_cells = cells,
                 .slow_cells = rows,
+                .stride = stride,
+                .ahead = 0,
+                .fast_pixel = 100,
+                .slow_pixel = 60,
                 .blanks = blanks,
                 .between_nodes = between_nodes,
                 .count = slices,

@@ -1,0 +1,65 @@
+#include "renderer/shear/tile_voxels.h"
+
+#include <algorithm>
+
+#include "renderer/shear/kernel.h"
+#include "renderer/shear/transpose.h"
+
+namespace shearwater::shear {
+
+bool VoxelRegion::contains(const VoxelRegion& inner) const {
+    for (std::size_t n = 0; n < 3; ++n) {
+        if (inner.lo[n] < lo[n] || inner.hi[n] > hi[n]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+template <class Code>
+TileVoxels<Code>::TileVoxels(const BrickVolume& volume, std::span<const Code> codes, const FacePlan& plan)
+    : volume_(volume),
+      codes_(codes),
+      axes_{plan.fast_axis(), plan.slow_axis(), plan.face().axis},
+      copied_{{0, 0, 0}, {-1, -1, -1}} {}
+
+template <class Code>
+typename TileVoxels<Code>::Place TileVoxels<Code>::find(const VoxelRegion& region, const VoxelRegion& more) {
+    if (axes_[2] != 0) {
+        volume::Index3 at;
+        for (std::size_t n = 0; n < 3; ++n) {
+            at[static_cast<std::size_t>(axes_[n])] = region.lo[n];
+        }
+        return {&codes_[volume_.offset(at)], volume_.stride(axes_[1]), volume_.stride(axes_[2]), false};
+    }
+    if (!copied_.contains(region)) {
+        turn(more);
+    }
+    const std::ptrdiff_t offset = (region.lo[0] - copied_.lo[0]) + (region.lo[1] - copied_.lo[1]) * row_ +
+                                  (region.lo[2] - copied_.lo[2]) * plane_;
+    return {&copy_[static_cast<std::size_t>(offset)], row_, plane_, true};
+}
+
+// Here the fast axis is 1, the slow one 2.
+template <class Code>
+void TileVoxels<Code>::turn(const VoxelRegion& region) {
+    const auto count = [&](std::size_t n) { return region.hi[n] - region.lo[n] + 1; };
+    // Whole blocks are written: there has to be room for the last of them, along both axes.
+    constexpr std::int64_t block = 16;
+    row_ = (count(0) + 2 * block - 1) / block * block;
+    plane_ = row_ * (count(1) + 1);
+    copy_.resize(static_cast<std::size_t>(plane_ * (count(2) + block)) + voxel_padding);
+    copied_ = region;
+    shear::turn(Stack<Code>{.first = &codes_[volume_.offset({region.lo[2], region.lo[0], region.lo[1]})],
+                            .row_stride = volume_.stride(1),
+                            .plane_stride = volume_.stride(2),
+                            .columns = static_cast<int>(count(2)),
+                            .rows = static_cast<int>(count(0)),
+                            .planes = static_cast<int>(count(1))},
+                copy_.data(), plane_, row_);
+}
+
+template class TileVoxels<std::uint8_t>;
+template class TileVoxels<std::uint16_t>;
+
+}  // namespace shearwater::shear

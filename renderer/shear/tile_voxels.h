@@ -1,0 +1,49 @@
+#pragma once
+// Where a tile finds the voxels of a few planes across the principal axis: in the volume itself, or, where
+// voxels are adjacent along that axis, in a copy that is turned so that they are along the fast one.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "renderer/shear/brick_volume.h"
+#include "renderer/shear/face_plan.h"
+
+namespace shearwater::shear {
+
+// Voxels from lo to hi, both included, along a face's fast, slow and principal axes.
+struct VoxelRegion {
+    std::array<std::int64_t, 3> lo, hi;
+
+    bool contains(const VoxelRegion& inner) const;
+};
+
+template <class Code>
+class TileVoxels {
+  public:
+    // Both have to outlive it.
+    TileVoxels(const BrickVolume& volume, std::span<const Code> codes, const FacePlan& plan);
+
+    // Where the voxels of a region lie: that of plane w of the principal axis, first along the others, at
+    // first + (w - region.lo[2]) * plane_stride, those along the fast axis adjacent.
+    struct Place {
+        const Code* first;
+        std::ptrdiff_t row_stride, plane_stride;
+        bool turned;  // into a copy that the next call may overwrite
+    };
+    // `more` holds the region and what may be asked for next: where voxels have to be turned, all of it is.
+    Place find(const VoxelRegion& region, const VoxelRegion& more);
+
+  private:
+    void turn(const VoxelRegion& region);
+
+    const BrickVolume& volume_;
+    std::span<const Code> codes_;
+    std::array<int, 3> axes_;
+    std::vector<Code> copy_;
+    VoxelRegion copied_;
+    std::ptrdiff_t row_ = 0, plane_ = 0;  // of the copy
+};
+
+}  // namespace shearwater::shear
