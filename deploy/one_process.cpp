@@ -74,8 +74,8 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     }
     const double preprocess = clock.lap();
     const auto second_half = [&](double fraction) { progress(0.5 + fraction / 2); };
-    const auto volume = shear::BrickVolume::load(*opened->source, volume::whole(lattice.n), lattice.n, *mapping,
-                                                 workers, second_half);
+    const auto volume = shear::BrickVolume::load(*opened->source, volume::whole(lattice.n), lattice.n,
+                                                 *mapping, workers, second_half);
     if (!volume) {
         return volume.error();
     }
@@ -105,6 +105,7 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
         picture.bricks_rendered = stats.bricks_rendered;
     }
     picture.seconds = median(times);
+    picture.each = std::move(times);
     picture.tree = "1,1";
     picture.memory.push_back({"shearwater", base::memory_use().peak});
     return picture;
