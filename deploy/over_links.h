@@ -10,7 +10,7 @@
 namespace shearwater::deploy {
 
 // Draws `repeat.times` pictures, one after the other, and keeps a tree of ours alive meanwhile. Progress
-// covers the loading. `program` names us to the server.
+// is Still's. `program` names us to the server.
 base::Result<Picture> draw_over_links(const std::string& program, Target& target, const ViewOptions& view,
                                       const view::TransferFunction& tf, const view::ImageSize& size,
                                       const Repeat& repeat, const volume::Progress& progress);

@@ -42,7 +42,7 @@ base::Result<Picture> draw_by_tree(const Flags& flags, const view::TransferFunct
     if (!target) {
         return target.error();
     }
-    ProgressBar bar("loading");
+    ProgressBar bar(flags.repeat > 1 ? "loading and drawing" : "loading");
     return draw_over_links(program, *target, flags.view, tf, size, {.times = flags.repeat},
                            [&](double fraction) { bar.show(fraction); });
 }

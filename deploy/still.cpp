@@ -133,6 +133,11 @@ void Still::on_frame(const wire::Message& message, wire::Time now, std::vector<w
     }
 }
 
+double Still::progress() const {
+    const double pictures = repeat_.times;
+    return pictures > 1 ? (progress_ + static_cast<double>(times_.size())) / (1 + pictures) : progress_;
+}
+
 base::Result<Picture> Still::take() {
     if (failed_) {
         return *failed_;

@@ -31,8 +31,8 @@ class Still {
     bool done() const { return finished_ || failed_.has_value(); }
     base::Result<Picture> take();
 
-    // The share of loading done, for a progress bar; 1 once pictures come.
-    double progress() const { return progress_; }
+    // The share done, for a progress bar: of loading, or, where there are several, of the pictures too.
+    double progress() const;
 
   private:
     void on_state(const wire::pb::TreeState& state);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "deploy/bench/subcommands.h"
+#include "protocol/daemon/runtime.h"
 
 namespace shearwater::deploy {
 
@@ -20,7 +21,7 @@ Run add_bench(CLI::App& app) {
         {"codecs", "what is done to pixels between kernel and window", bench::add_codecs},
         {"large", "a cube that no file holds: the paper's run of 2048^3 voxels", bench::add_large},
     };
-    app.require_subcommand(1);
+    app.require_subcommand(0, 1);
     auto runs = std::make_shared<std::vector<std::pair<CLI::App*, Run>>>();
     for (const auto& [name, about, add] : benchmarks) {
         CLI::App* const benchmark = app.add_subcommand(name, about);
@@ -32,7 +33,9 @@ Run add_bench(CLI::App& app) {
                 return run();
             }
         }
-        return 2;
+        return daemon::refuse(
+            "shearwater bench",
+            base::error(base::Code::invalid_argument, "", "name a benchmark; see shearwater bench --help"));
     };
 }
 

@@ -95,7 +95,7 @@ class Codecs {
              std::optional<double> ratio = {}) {
         Record record;
         record.text("workload", workload_)
-            .text("what", what)
+            .text("what", what, 17)
             .count("threads", static_cast<std::uint64_t>(threads))
             .count("pixels", pixels)
             .number("median_ms", times.median * 1e3, 3)
@@ -111,12 +111,12 @@ class Codecs {
 };
 
 base::Status codecs(const Flags& flags) {
-    const deploy::ViewOptions view = flags.common.view(flags.edge);
-    const auto size = view.image_size();
-    const auto camera = view.camera({.n = {flags.edge, flags.edge, flags.edge}});
-    if (!size || !camera) {
-        return size ? camera.error() : size.error();
+    const auto view = flags.common.view(flags.edge);
+    if (!view) {
+        return view.error();
     }
+    const view::ImageSize size = *view->image_size();
+    const view::Camera camera = *view->camera({.n = {flags.edge, flags.edge, flags.edge}});
     auto report = Report::open("codecs", flags.common.json);
     if (!report) {
         return report.error();
@@ -130,7 +130,7 @@ base::Status codecs(const Flags& flags) {
         if (!cube) {
             return cube.error();
         }
-        const Frame frame = draw(*cube, *camera, *size, view.quality_value(), work.tf);
+        const Frame frame = draw(*cube, camera, size, view->quality_value(), work.tf);
         Codecs timed(flags, name, *report);
         timed.time_picture(frame.picture);
         if (!frame.windows.empty()) {

@@ -54,8 +54,8 @@ Record row(const Flags& flags, const Case& drawn, const InProcess& cube, const s
     const FrameSummary all = summary(frames);
     Record record;
     record.text("workload", drawn.name)
-        .text("cube", cube_text(cube.lattice().n))
-        .text("view", view)
+        .text("cube", cube_text(cube.lattice().n), 12)
+        .text("view", view, 11)
         .count("threads", static_cast<std::uint64_t>(cube.threads()))
         .aside("image", flags.common.image)
         .aside("quality", flags.common.quality)
@@ -118,14 +118,17 @@ base::Status draw(const Flags& flags, const Case& drawn, Report& report) {
     if (!cube) {
         return cube.error();
     }
-    deploy::ViewOptions view = flags.common.view(std::ranges::max(cube->lattice().n));
-    view.parallel = flags.parallel;
+    auto view = flags.common.view(std::ranges::max(cube->lattice().n));
+    if (!view) {
+        return view.error();
+    }
+    view->parallel = flags.parallel;
     if (flags.axes) {
-        return draw_axes(flags, drawn, *cube, view, report);
+        return draw_axes(flags, drawn, *cube, *view, report);
     }
     deploy::ProgressBar bar(drawn.name);
     const auto frames =
-        cube->draw_path(view, flags.common.frames, drawn.tf, [&](double share) { bar.show(share); });
+        cube->draw_path(*view, flags.common.frames, drawn.tf, [&](double share) { bar.show(share); });
     if (!frames) {
         return frames.error();
     }
@@ -137,8 +140,8 @@ base::Status frame(const Flags& flags) {
     if (const auto valid = flags.cube.validate(); !valid) {
         return valid;
     }
-    if (const auto size = flags.common.view(flags.edge).image_size(); !size) {
-        return size.error();
+    if (const auto view = flags.common.view(flags.edge); !view) {
+        return view.error();
     }
     const auto cases = cases_of(flags);
     if (!cases) {

@@ -21,12 +21,15 @@ struct Flags {
 
 base::Status images(const Flags& flags) {
     const Workload work = workload(flags.workload);
-    deploy::ViewOptions view = flags.common.view(flags.edge);
+    std::vector<deploy::ViewOptions> views;
     for (const std::string& image : flags.images) {
-        view.size = image;
-        if (const auto camera = view.camera({.n = {flags.edge, flags.edge, flags.edge}}); !camera) {
-            return camera.error();
+        Options common = flags.common;
+        common.image = image;
+        const auto view = common.view(flags.edge);
+        if (!view) {
+            return view.error();
         }
+        views.push_back(*view);
     }
     auto report = Report::open("images", flags.common.json);
     if (!report) {
@@ -43,8 +46,7 @@ base::Status images(const Flags& flags) {
     if (!tree) {
         return tree.error();
     }
-    for (const std::string& image : flags.images) {
-        view.size = image;
+    for (const deploy::ViewOptions& view : views) {
         const auto here = cube->draw_path(view, flags.common.frames, work.tf, show);
         const auto by_tree = tree->draw_path(view, flags.common.frames, work.tf, show);
         if (!here || !by_tree) {
@@ -55,7 +57,7 @@ base::Status images(const Flags& flags) {
         const auto paper = papers ? paper::image_seconds(size.width) : std::nullopt;
         const deploy::Seconds& seconds = by_tree->seconds;
         Record record;
-        record.text("image", image)
+        record.text("image", view.size, 9)
             .aside("cube", cube_text(cube->lattice().n))
             .aside("workload", flags.workload)
             .aside("frames", flags.common.frames)

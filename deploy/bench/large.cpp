@@ -57,9 +57,9 @@ Record row(const Flags& flags, const OnTree& tree, const deploy::Picture& pictur
 }
 
 base::Status large(const Flags& flags) {
-    const deploy::ViewOptions view = flags.common.view(flags.edge);
-    if (const auto size = view.image_size(); !size) {
-        return size.error();
+    const auto view = flags.common.view(flags.edge);
+    if (!view) {
+        return view.error();
     }
     auto report = Report::open("large", flags.common.json);
     if (!report) {
@@ -72,7 +72,7 @@ base::Status large(const Flags& flags) {
     }
     const auto picture = [&] {
         deploy::ProgressBar bar("making " + std::to_string(flags.edge) + "^3 voxels");
-        return tree->draw_path(view, flags.common.frames, work.tf, [&](double share) { bar.show(share); });
+        return tree->draw_path(*view, flags.common.frames, work.tf, [&](double share) { bar.show(share); });
     }();
     if (!picture) {
         return picture.error();

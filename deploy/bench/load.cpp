@@ -149,7 +149,7 @@ class Loading {
 
     void add(const std::string& stage, int threads, double voxels, const Spread& times) {
         Record record;
-        record.text("stage", stage)
+        record.text("stage", stage, 20)
             .text("cube", cube_text(cube_.info.n))
             .count("bits", static_cast<std::uint64_t>(flags_.bits))
             .count("threads", static_cast<std::uint64_t>(threads))

@@ -37,10 +37,13 @@ void Options::add_quality(CLI::App& app) {
         ->capture_default_str();
 }
 
-deploy::ViewOptions Options::view(std::int64_t edge) const {
+base::Result<deploy::ViewOptions> Options::view(std::int64_t edge) const {
     deploy::ViewOptions made = first_view(edge);
     made.size = image;
     made.quality = quality;
+    if (const auto camera = made.camera({.n = {edge, edge, edge}}); !camera) {
+        return base::error(camera.error().code, "--image " + image, camera.error().detail);
+    }
     return made;
 }
 

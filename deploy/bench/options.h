@@ -23,8 +23,8 @@ struct Options {
     void add_image(CLI::App& app);
     void add_quality(CLI::App& app);
 
-    // first_view with these options' image and quality.
-    deploy::ViewOptions view(std::int64_t edge) const;
+    // first_view with these options' image and quality, checked.
+    base::Result<deploy::ViewOptions> view(std::int64_t edge) const;
 };
 
 void add_workload(CLI::App& app, std::string& name);

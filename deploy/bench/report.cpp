@@ -32,8 +32,8 @@ std::string heading(std::string key) {
 
 }  // namespace
 
-Record& Record::text(const std::string& key, const std::string& value) {
-    fields_.push_back({key, deploy::quoted(value), value});
+Record& Record::text(const std::string& key, const std::string& value, std::size_t width) {
+    fields_.push_back({key, deploy::quoted(value), value, true, width});
     return *this;
 }
 
@@ -99,12 +99,17 @@ void Report::add(const Record& record) {
 }
 
 void Report::show(const Record& record) {
+    const auto put = [](const Record::Field& field, const std::string& text, std::size_t width) {
+        const std::string gap(width - std::min(width, text.size()), ' ');
+        std::cout << (field.to_the_left ? text + gap : gap + text) << "  ";
+    };
     if (widths_.empty()) {
         for (const Record::Field& field : record.fields()) {
             if (field.shown) {
                 const std::string title = heading(field.key);
-                widths_.push_back(std::max({title.size(), field.shown->size(), std::size_t{6}}));
-                std::cout << std::setw(static_cast<int>(widths_.back())) << title << "  ";
+                constexpr std::size_t narrowest = 6;
+                widths_.push_back(std::max({title.size(), field.shown->size(), field.width, narrowest}));
+                put(field, title, widths_.back());
             }
         }
         std::cout << "\n";
@@ -112,7 +117,7 @@ void Report::show(const Record& record) {
     auto width = widths_.begin();
     for (const Record::Field& field : record.fields()) {
         if (field.shown) {
-            std::cout << std::setw(static_cast<int>(*width++)) << *field.shown << "  ";
+            put(field, *field.shown, *width++);
         }
     }
     std::cout << std::endl;

@@ -14,7 +14,8 @@ namespace shearwater::bench {
 // One row. A field's key heads its column, underscores as spaces.
 class Record {
   public:
-    Record& text(const std::string& key, const std::string& value);
+    // `width`: of the column, when other rows have longer texts.
+    Record& text(const std::string& key, const std::string& value, std::size_t width = 0);
     Record& count(const std::string& key, std::uint64_t value);
     // With so many decimals in the table, and all there are in JSON; a dash and null without a value.
     Record& number(const std::string& key, std::optional<double> value, int decimals);
@@ -26,6 +27,8 @@ class Record {
         std::string key;
         std::string json;
         std::optional<std::string> shown;
+        bool to_the_left = false;
+        std::size_t width = 0;
     };
     const std::vector<Field>& fields() const { return fields_; }
 

@@ -34,9 +34,9 @@ std::vector<Stage> stages_of(const deploy::Seconds& s) {
 }
 
 base::Status stages(const Flags& flags) {
-    const deploy::ViewOptions view = flags.common.view(flags.edge);
-    if (const auto size = view.image_size(); !size) {
-        return size.error();
+    const auto view = flags.common.view(flags.edge);
+    if (!view) {
+        return view.error();
     }
     auto report = Report::open("stages", flags.common.json);
     if (!report) {
@@ -49,14 +49,14 @@ base::Status stages(const Flags& flags) {
     }
     const auto picture = [&] {
         deploy::ProgressBar bar(flags.workload);
-        return tree->draw_path(view, flags.common.frames, work.tf, [&](double share) { bar.show(share); });
+        return tree->draw_path(*view, flags.common.frames, work.tf, [&](double share) { bar.show(share); });
     }();
     if (!picture) {
         return picture.error();
     }
     for (const Stage& stage : stages_of(picture->seconds)) {
         Record record;
-        record.text("stage", stage.name)
+        record.text("stage", stage.name, 17)
             .aside("cube", std::to_string(flags.edge) + "^3")
             .aside("workload", flags.workload)
             .aside("image", flags.common.image)

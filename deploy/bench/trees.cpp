@@ -42,7 +42,7 @@ base::Result<Drawn> draw_here(const Flags& flags, std::int64_t edge) {
     if (!cube) {
         return cube.error();
     }
-    const auto frames = cube->draw_path(flags.common.view(edge), flags.common.frames, work.tf, show);
+    const auto frames = cube->draw_path(*flags.common.view(edge), flags.common.frames, work.tf, show);
     if (!frames) {
         return frames.error();
     }
@@ -59,7 +59,7 @@ base::Result<Drawn> draw_by_tree(const Flags& flags, std::int64_t edge, int node
         return tree.error();
     }
     deploy::ProgressBar bar(title(flags, edge, nodes));
-    const auto picture = tree->draw_path(flags.common.view(edge), flags.common.frames, work.tf,
+    const auto picture = tree->draw_path(*flags.common.view(edge), flags.common.frames, work.tf,
                                          [&](double share) { bar.show(share); });
     if (!picture) {
         return picture.error();
@@ -109,8 +109,10 @@ Record row(const Flags& flags, std::int64_t edge, int nodes, const Drawn& drawn,
 }
 
 base::Status trees(const Flags& flags) {
-    if (const auto size = flags.common.view(2).image_size(); !size) {
-        return size.error();
+    for (const std::int64_t edge : flags.edges) {
+        if (const auto view = flags.common.view(edge); !view) {
+            return view.error();
+        }
     }
     auto report = Report::open("trees", flags.common.json);
     if (!report) {
