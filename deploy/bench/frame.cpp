@@ -137,7 +137,7 @@ base::Status draw(const Flags& flags, const Case& drawn, Report& report) {
 }
 
 base::Status frame(const Flags& flags) {
-    if (const auto valid = flags.cube.validate(); !valid) {
+    if (auto valid = flags.cube.validate(); !valid) {
         return valid;
     }
     if (const auto view = flags.common.view(flags.edge); !view) {
@@ -152,7 +152,7 @@ base::Status frame(const Flags& flags) {
         return report.error();
     }
     for (const Case& drawn : *cases) {
-        if (const auto done = draw(flags, drawn, *report); !done) {
+        if (auto done = draw(flags, drawn, *report); !done) {
             return done;
         }
     }

@@ -189,7 +189,7 @@ base::Status load(const Flags& flags) {
     std::string path = flags.path;
     if (path.empty()) {
         scratch.emplace(flags.folder);
-        if (const auto made = make_cube(flags, *scratch); !made) {
+        if (auto made = make_cube(flags, *scratch); !made) {
             return made;
         }
         path = scratch->cube();
@@ -199,10 +199,10 @@ base::Status load(const Flags& flags) {
         return cube.error();
     }
     const auto bytes = static_cast<std::uint64_t>(volume::voxel_count(cube->info.n) * flags.bits / 8);
-    if (const auto fits = check_memory("load " + path, bytes); !fits) {
+    if (auto fits = check_memory("load " + path, bytes); !fits) {
         return fits;
     }
-    if (const auto done = Loading(flags, *std::move(cube), *report).run(); !done) {
+    if (auto done = Loading(flags, *std::move(cube), *report).run(); !done) {
         return done;
     }
     report->note("MB are those of the cube as 32-bit floats.");
