@@ -77,16 +77,36 @@ std::vector<Blob> scatter(const volume::Index3& n, std::uint64_t seed) {
     return blobs;
 }
 
-// A blob's factor along one axis where it meets [lo, hi]. It ends after four deviations.
+// The voxels along one axis of [lo, hi] that a blob is in, last included. It ends after four deviations.
+struct Reach {
+    std::int64_t first, last;
+    bool empty() const { return last < first; }
+};
+
+Reach reach(const Blob& blob, std::size_t axis, std::int64_t lo, std::int64_t hi) {
+    const auto middle = static_cast<std::int64_t>(blob.middle[axis]);
+    const auto radius = static_cast<std::int64_t>(std::ceil(4 * blob.width));
+    return {std::max(lo, middle - radius), std::min(hi, middle + radius)};
+}
+
+bool meets(const Blob& blob, const volume::Box& box) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (reach(blob, axis, box.lo[axis], box.hi[axis]).empty()) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// A blob's factor along one axis, where it is in [lo, hi].
 struct Profile {
     std::int64_t first = 0;
     std::vector<float> factors;
 
     Profile(const Blob& blob, std::size_t axis, std::int64_t lo, std::int64_t hi) {
-        const auto middle = static_cast<std::int64_t>(blob.middle[axis]);
-        const auto reach = static_cast<std::int64_t>(std::ceil(4 * blob.width));
-        first = std::max(lo, middle - reach);
-        for (std::int64_t at = first; at <= std::min(hi, middle + reach); ++at) {
+        const Reach within = reach(blob, axis, lo, hi);
+        first = within.first;
+        for (std::int64_t at = within.first; at <= within.last; ++at) {
             const float deviations = (static_cast<float>(at) - blob.middle[axis]) / blob.width;
             factors.push_back(std::exp(-0.5F * deviations * deviations));
         }
@@ -102,10 +122,6 @@ struct Profile {
 struct Part {
     float peak;
     std::array<Profile, 3> along;
-
-    bool empty() const {
-        return std::ranges::any_of(along, [](const Profile& profile) { return profile.factors.empty(); });
-    }
 };
 
 class NoiseSources final : public Field {
@@ -132,12 +148,11 @@ class NoiseSources final : public Field {
     std::vector<Part> parts_in(const volume::Box& box) const {
         std::vector<Part> parts;
         for (const Blob& blob : blobs_) {
-            Part part{
-                .peak = blob.peak,
-                .along = {Profile(blob, 0, box.lo[0], box.hi[0]), Profile(blob, 1, box.lo[1], box.hi[1]),
-                          Profile(blob, 2, box.lo[2], box.hi[2])}};
-            if (!part.empty()) {
-                parts.push_back(std::move(part));
+            if (meets(blob, box)) {
+                parts.push_back(
+                    {.peak = blob.peak,
+                     .along = {Profile(blob, 0, box.lo[0], box.hi[0]), Profile(blob, 1, box.lo[1], box.hi[1]),
+                               Profile(blob, 2, box.lo[2], box.hi[2])}});
             }
         }
         return parts;
