@@ -14,5 +14,6 @@ Run add_serve(CLI::App& app);
 Run add_snapshot(CLI::App& app);
 Run add_info(CLI::App& app);
 Run add_sample(CLI::App& app);
+Run add_bench(CLI::App& app);  // in deploy/bench
 
 }  // namespace shearwater::deploy

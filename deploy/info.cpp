@@ -1,7 +1,7 @@
 #include <iomanip>
 #include <iostream>
 
-#include "common/fits/cube.h"
+#include "common/cube/open.h"
 #include "common/options/cube_options.h"
 #include "common/volume/statistics.h"
 #include "deploy/commands.h"
@@ -46,22 +46,22 @@ void print_values(const volume::Histogram& histogram, const fits::CubeInfo& info
 }
 
 base::Status info(const options::CubeOptions& options, int threads) {
-    auto cube = fits::Cube::open(options.path, options.open_options());
+    auto cube = cube::open(options.path, options.open_options());
     if (!cube) {
         return cube.error();
     }
-    print_header(cube->info());
+    print_header(cube->info);
     base::Workers workers(threads);
-    const auto& n = cube->info().n;
+    const auto& n = cube->info.n;
     base::Result<volume::Histogram> histogram = [&] {
         ProgressBar bar("counting");
-        return volume::count_values(*cube, volume::whole(n), n, workers,
+        return volume::count_values(*cube->source, volume::whole(n), n, workers,
                                     [&](double share) { bar.show(share); });
     }();
     if (!histogram) {
         return histogram.error();
     }
-    print_values(*histogram, cube->info(), options.percentile);
+    print_values(*histogram, cube->info, options.percentile);
     return {};
 }
 
@@ -70,7 +70,7 @@ base::Status info(const options::CubeOptions& options, int threads) {
 Run add_info(CLI::App& app) {
     auto options = std::make_shared<options::CubeOptions>();
     auto threads = std::make_shared<int>(0);
-    app.add_option("cube", options->path, "the FITS file")->required();
+    app.add_option("cube", options->path, "the FITS file, or synthetic:KIND:SIZE")->required();
     app.add_option("--hdu", options->hdu, "the HDU that holds the cube, from 0; else the first that does")
         ->check(CLI::Range(0, 100000));
     app.add_option("--plane", options->plane, "index along a fourth axis, from 0")

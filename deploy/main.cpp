@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
         {"snapshot", "draw one picture of a cube into a PNG file", deploy::add_snapshot},
         {"info", "say what a FITS file holds", deploy::add_info},
         {"sample", "make a sample cube", deploy::add_sample},
+        {"bench", "measure how fast pictures are drawn here", deploy::add_bench},
     };
     std::vector<std::pair<CLI::App*, deploy::Run>> runs;
     for (const auto& [name, about, add] : commands) {

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "common/base/memory.h"
-#include "common/fits/cube.h"
+#include "common/cube/open.h"
 #include "common/image/warp.h"
 #include "common/volume/statistics.h"
 #include "renderer/shear/brick_volume.h"
@@ -27,7 +27,7 @@ class Clock {
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-base::Result<volume::Mapping> mapping_for(fits::Cube& source, const options::CubeOptions& cube,
+base::Result<volume::Mapping> mapping_for(cube::Cube& opened, const options::CubeOptions& cube,
                                           base::Workers& workers, const volume::Progress& progress) {
     volume::Mapping mapping{.stretch = cube.stretch_value(), .bits = cube.bits};
     if (cube.range.size() == 2) {
@@ -35,9 +35,9 @@ base::Result<volume::Mapping> mapping_for(fits::Cube& source, const options::Cub
         mapping.hi = cube.range[1];
         return mapping;
     }
-    const auto& n = source.info().n;
+    const auto& n = opened.info.n;
     const auto half = [&](double fraction) { progress(fraction / 2); };
-    const auto histogram = volume::count_values(source, volume::whole(n), n, workers, half);
+    const auto histogram = volume::count_values(*opened.source, volume::whole(n), n, workers, half);
     if (!histogram) {
         return histogram.error();
     }
@@ -54,28 +54,28 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
                                       const volume::Progress& progress) {
     base::Workers workers(threads);
     Clock clock;
-    auto source = fits::Cube::open(cube.path, cube.open_options());
-    if (!source) {
-        return source.error();
+    auto opened = cube::open(cube.path, cube.open_options());
+    if (!opened) {
+        return opened.error();
     }
-    for (const std::string& note : source->info().notes) {
+    for (const std::string& note : opened->info.notes) {
         std::fprintf(stderr, "note: %s\n", note.c_str());
     }
-    const view::Lattice lattice{.n = source->info().n, .spacing = cube.spacing_value()};
+    const view::Lattice lattice{.n = opened->info.n, .spacing = cube.spacing_value()};
     const auto size = view.image_size();
     const auto camera = view.camera(lattice);
     if (!size || !camera) {
         return size ? camera.error() : size.error();
     }
     double load = clock.lap();
-    const auto mapping = mapping_for(*source, cube, workers, progress);
+    const auto mapping = mapping_for(*opened, cube, workers, progress);
     if (!mapping) {
         return mapping.error();
     }
     const double preprocess = clock.lap();
     const auto second_half = [&](double fraction) { progress(0.5 + fraction / 2); };
-    const auto volume = shear::BrickVolume::load(*source, volume::whole(lattice.n), lattice.n, *mapping,
-                                                 workers, second_half);
+    const auto volume = shear::BrickVolume::load(*opened->source, volume::whole(lattice.n), lattice.n,
+                                                 *mapping, workers, second_half);
     if (!volume) {
         return volume.error();
     }
@@ -105,6 +105,7 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
         picture.bricks_rendered = stats.bricks_rendered;
     }
     picture.seconds = median(times);
+    picture.each = std::move(times);
     picture.tree = "1,1";
     picture.memory.push_back({"shearwater", base::memory_use().peak});
     return picture;

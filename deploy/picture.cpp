@@ -3,43 +3,9 @@
 #include <algorithm>
 #include <sstream>
 
+#include "deploy/json.h"
+
 namespace shearwater::deploy {
-namespace {
-
-std::string quoted(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : base::printable(text)) {
-        if (c == '"' || c == '\\') {
-            out += '\\';
-        }
-        out += c;
-    }
-    return out + '"';
-}
-
-// Writes one JSON object, member by member.
-class Object {
-  public:
-    explicit Object(std::ostream& out) : out_(out) { out_ << '{'; }
-    template <class T>
-    Object& add(const std::string& key, const T& value) {
-        begin(key) << value;
-        return *this;
-    }
-    std::ostream& begin(const std::string& key) {
-        out_ << (first_ ? "" : ", ") << quoted(key) << ": ";
-        first_ = false;
-        return out_;
-    }
-    void end() { out_ << '}'; }
-
-  private:
-    std::ostream& out_;
-    bool first_ = true;
-};
-
-}  // namespace
-
 Seconds median(const std::vector<Seconds>& all) {
     const auto of = [&](double Seconds::*member) {
         std::vector<double> values;
@@ -64,9 +30,9 @@ Seconds median(const std::vector<Seconds>& all) {
 
 std::string to_json(const Picture& picture) {
     std::ostringstream out;
-    Object root(out);
+    JsonObject root(out);
     const Seconds& s = picture.seconds;
-    Object(root.begin("seconds"))
+    JsonObject(root.begin("seconds"))
         .add("load", s.load)
         .add("preprocess", s.preprocess)
         .add("render", s.render)
@@ -76,14 +42,17 @@ std::string to_json(const Picture& picture) {
         .add("total", s.total)
         .end();
     root.add("samples", picture.samples);
-    Object(root.begin("bricks"))
+    JsonObject(root.begin("bricks"))
         .add("total", picture.bricks_total)
         .add("empty", picture.bricks_empty)
         .add("culled", 0)
         .add("rendered", picture.bricks_rendered)
         .end();
-    Object(root.begin("bytes")).add("windows", picture.window_bytes).add("frame", picture.frame_bytes).end();
-    Object memory(root.begin("peak_bytes"));
+    JsonObject(root.begin("bytes"))
+        .add("windows", picture.window_bytes)
+        .add("frame", picture.frame_bytes)
+        .end();
+    JsonObject memory(root.begin("peak_bytes"));
     for (const ProcessMemory& process : picture.memory) {
         memory.add(process.name, process.peak_bytes);
     }

@@ -29,6 +29,7 @@ struct ProcessMemory {
 struct Picture {
     image::Image<image::Rgba8> image;
     Seconds seconds;
+    std::vector<Seconds> each;  // of every time that it was drawn
     std::uint64_t samples = 0;
     std::uint64_t bricks_total = 0, bricks_empty = 0, bricks_rendered = 0;
     std::uint64_t window_bytes = 0;  // up the tree, all links

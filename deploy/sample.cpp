@@ -15,6 +15,7 @@ struct Flags {
     std::string output;
     std::vector<std::int64_t> size{128, 128, 128};
     std::uint64_t seed = 1;
+    int bitpix = -32;
 };
 
 base::Status sample(const Flags& flags) {
@@ -22,7 +23,8 @@ base::Status sample(const Flags& flags) {
     const daemon::Interrupt interrupt;
     ProgressBar bar("making " + flags.name);
     return samples::write_sample(
-        flags.name, n, flags.seed, flags.output, [&](double share) { bar.show(share); }, interrupt.token());
+        flags.name, n, flags.seed, flags.output, [&](double share) { bar.show(share); }, interrupt.token(),
+        flags.bitpix);
 }
 
 }  // namespace
@@ -41,6 +43,9 @@ Run add_sample(CLI::App& app) {
         ->allow_extra_args(false)
         ->capture_default_str();
     app.add_option("--seed", flags->seed, "of its randomness")->capture_default_str();
+    app.add_option("--bitpix", flags->bitpix, "-32, or 8 for a sample of whole numbers from 0 to 255")
+        ->check(CLI::IsMember({-32, 8}))
+        ->capture_default_str();
     return [flags] {
         const auto done = sample(*flags);
         return done ? 0 : daemon::refuse("shearwater sample", done.error());

@@ -95,7 +95,7 @@ base::Status serve(const Flags& flags) {
 
 Run add_serve(CLI::App& app) {
     auto flags = std::make_shared<Flags>();
-    app.add_option("cube", flags->cube.path, "the FITS file")->required();
+    app.add_option("cube", flags->cube.path, "the FITS file, or synthetic:KIND:SIZE")->required();
     flags->tree.add_to(app);
     flags->cube.add_to(app);
     flags->common.add_to(app);

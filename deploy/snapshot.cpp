@@ -1,13 +1,12 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
-#include <optional>
 
 #include "common/image/png.h"
 #include "deploy/commands.h"
 #include "deploy/one_process.h"
+#include "deploy/over_links.h"
 #include "deploy/progress_bar.h"
-#include "deploy/still.h"
 #include "deploy/target.h"
 #include "protocol/daemon/runtime.h"
 
@@ -37,35 +36,15 @@ base::Status write_json(const std::string& path, const Picture& picture) {
     return {};
 }
 
-base::Result<Picture> draw_over_links(const Flags& flags, const view::TransferFunction& tf,
-                                      const view::ImageSize& size) {
+base::Result<Picture> draw_by_tree(const Flags& flags, const view::TransferFunction& tf,
+                                   const view::ImageSize& size) {
     auto target = open_target(flags.target, "warn");
     if (!target) {
         return target.error();
     }
-    std::optional<LocalTree>& tree = target->tree;
-    Still still(target->server, flags.view, tf, size, flags.repeat);
-    ProgressBar bar("loading");
-    std::optional<daemon::Runtime> runtime;
-    runtime.emplace(program, target->secret, [&](const wire::NetEvent& event) {
-        runtime->perform(still.handle(event, std::chrono::steady_clock::now()));
-        bar.show(still.progress());
-        if (still.done()) {
-            runtime->stop(0);
-        } else if (tree && std::holds_alternative<wire::Tick>(event) && !tree->keep_alive()) {
-            runtime->stop(1);
-        }
-    });
-    runtime->perform(still.start(std::chrono::steady_clock::now()));
-    runtime->run();
-    if (!still.done()) {
-        return base::error(base::Code::cancelled, "draw", "stopped before there was a picture");
-    }
-    auto picture = still.take();
-    if (picture && tree) {
-        picture->tree = tree->shape();
-    }
-    return picture;
+    ProgressBar bar(flags.repeat > 1 ? "loading and drawing" : "loading");
+    return draw_over_links(program, *target, flags.view, tf, size, {.times = flags.repeat},
+                           [&](double fraction) { bar.show(fraction); });
 }
 
 base::Status snapshot(const Flags& flags) {
@@ -86,7 +65,7 @@ base::Status snapshot(const Flags& flags) {
         picture = draw_in_process(flags.target.cube, flags.view, *tf, flags.target.threads, flags.repeat,
                                   [&](double fraction) { bar.show(fraction); });
     } else {
-        picture = draw_over_links(flags, *tf, *size);
+        picture = draw_by_tree(flags, *tf, *size);
     }
     if (!picture) {
         return picture.error();

@@ -18,7 +18,7 @@ double seconds(wire::Time from, wire::Time to) {
 }  // namespace
 
 Still::Still(wire::Address server, ViewOptions options, view::TransferFunction tf, view::ImageSize size,
-             int repeat)
+             const Repeat& repeat)
     : server_(std::move(server)), options_(std::move(options)), repeat_(repeat) {
     view_.size = size;
     view_.tf = std::move(tf);
@@ -88,6 +88,7 @@ void Still::ask(wire::Time now, std::vector<wire::NetEffect>& effects) {
         return;
     }
     view_.camera = *camera;
+    options_.orbit.azimuth += repeat_.turn;
     ++view_.revision;
     asked_ = now;
     effects.emplace_back(wire::Send{server_link, wire::message(wire::to_wire(view_))});
@@ -125,11 +126,16 @@ void Still::on_frame(const wire::Message& message, wire::Time now, std::vector<w
     picture_.bricks_rendered = leaves.bricks_rendered();
     picture_.window_bytes = leaves.window_bytes();
     picture_.frame_bytes = message.payload_size();
-    if (static_cast<int>(times_.size()) < repeat_) {
+    if (static_cast<int>(times_.size()) < repeat_.times) {
         ask(now, effects);
     } else {
         finished_ = true;
     }
+}
+
+double Still::progress() const {
+    const double pictures = repeat_.times;
+    return pictures > 1 ? (progress_ + static_cast<double>(times_.size())) / (1 + pictures) : progress_;
 }
 
 base::Result<Picture> Still::take() {
@@ -137,6 +143,7 @@ base::Result<Picture> Still::take() {
         return *failed_;
     }
     picture_.seconds = median(times_);
+    picture_.each = std::move(times_);
     return std::move(picture_);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// A client without a window: asks a server for one view, some times over, and keeps the last picture. A
-// pure state machine, like all that speak on links.
+// A client without a window: asks a server for one view, some times over, and keeps the last picture.
+// Between times the camera may turn. A pure state machine, like all that speak on links.
 
 #include <functional>
 #include <optional>
@@ -14,10 +14,15 @@
 
 namespace shearwater::deploy {
 
+struct Repeat {
+    int times = 1;
+    double turn = 0;  // degrees of azimuth from one picture to the next
+};
+
 class Still {
   public:
     Still(wire::Address server, ViewOptions options, view::TransferFunction tf, view::ImageSize size,
-          int repeat);
+          const Repeat& repeat);
 
     std::vector<wire::NetEffect> start(wire::Time now);
     std::vector<wire::NetEffect> handle(const wire::NetEvent& event, wire::Time now);
@@ -26,8 +31,8 @@ class Still {
     bool done() const { return finished_ || failed_.has_value(); }
     base::Result<Picture> take();
 
-    // The share of loading done, for a progress bar; 1 once pictures come.
-    double progress() const { return progress_; }
+    // The share done, for a progress bar: of loading, or, where there are several, of the pictures too.
+    double progress() const;
 
   private:
     void on_state(const wire::pb::TreeState& state);
@@ -38,7 +43,7 @@ class Still {
     wire::Address server_;
     ViewOptions options_;
     wire::View view_;
-    int repeat_;
+    Repeat repeat_;
     std::optional<view::Lattice> lattice_;
     std::vector<Seconds> times_;
     Picture picture_;

@@ -6,7 +6,7 @@
 namespace shearwater::deploy {
 
 void TargetOptions::add_to(CLI::App& app) {
-    app.add_option("cube", cube.path, "the FITS file");
+    app.add_option("cube", cube.path, "the FITS file, or synthetic:KIND:SIZE");
     app.add_option("--connect", connect, "HOST:PORT of a running server, instead of a cube");
     app.add_option("--secret-file", secret_file, "file of mode 0600 with the server's secret");
     app.add_option("--threads", threads, "threads that compute; 0: one a processor")

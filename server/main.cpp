@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <random>
 
+#include "common/cube/open.h"
 #include "common/options/cube_options.h"
 #include "common/options/tree_options.h"
 #include "protocol/daemon/options.h"
@@ -24,7 +25,7 @@ struct Flags {
     options::TreeOptions tree;
 
     void add_to(CLI::App& app) {
-        app.add_option("cube", cube.path, "the FITS file")->required();
+        app.add_option("cube", cube.path, "the FITS file, or synthetic:KIND:SIZE")->required();
         tree.add_to(app);
         cube.add_to(app);
         common.add_to(app);
@@ -32,9 +33,9 @@ struct Flags {
 };
 
 head::CubeFacts facts_of(const fits::CubeInfo& info, const options::CubeOptions& options) {
-    const std::filesystem::path path = std::filesystem::absolute(options.path);
-    return {.name = base::printable(path.filename().string()),
-            .path = path.string(),
+    const std::string path = cube::absolute(options.path);
+    return {.name = base::printable(std::filesystem::path(path).filename().string()),
+            .path = path,
             .object = info.object,
             .unit = info.unit,
             .hdu = info.hdu,
@@ -59,7 +60,7 @@ std::uint64_t new_epoch() {
     return (std::uint64_t{device()} << 32) | device();
 }
 
-int serve(const std::string& program, const Flags& flags, const link::Secret& secret, fits::Cube cube,
+int serve(const std::string& program, const Flags& flags, const link::Secret& secret, cube::Cube cube,
           head::Roster roster, const wire::Address& listen) {
     link::Limits link_limits;
     // All daemons may come at once, each with a link for its orders and one for its place.
@@ -85,7 +86,7 @@ int serve(const std::string& program, const Flags& flags, const link::Secret& se
             }
         },
         link_limits);
-    service.emplace(flags.common.threads, std::move(cube), [&](head::JobEvent event) {
+    service.emplace(flags.common.threads, std::move(cube.source), [&](head::JobEvent event) {
         auto shared = std::make_shared<head::JobEvent>(std::move(event));
         runtime->post(
             [&, shared] { perform(head.handle(std::move(*shared), std::chrono::steady_clock::now())); });
@@ -128,18 +129,18 @@ int main(int argc, char** argv) {
     if (!secret) {
         return daemon::refuse(program, secret.error());
     }
-    auto cube = fits::Cube::open(flags.cube.path, flags.cube.open_options());
+    auto cube = cube::open(flags.cube.path, flags.cube.open_options());
     if (!cube) {
         return daemon::refuse(program, cube.error());
     }
-    auto plan = tree::make_plan(*topology, cube->info().n);
+    auto plan = tree::make_plan(*topology, cube->info.n);
     if (!plan) {
         return daemon::refuse(program, plan.error());
     }
     flags.common.start_log(program);
-    for (const std::string& note : cube->info().notes) {
+    for (const std::string& note : cube->info.notes) {
         spdlog::warn("{}: {}", base::printable(flags.cube.path), note);
     }
-    head::Roster roster(*std::move(plan), facts_of(cube->info(), flags.cube), new_epoch(), flags.cube.bits);
+    head::Roster roster(*std::move(plan), facts_of(cube->info, flags.cube), new_epoch(), flags.cube.bits);
     return serve(program, flags, *secret, *std::move(cube), std::move(roster), *listen);
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -37,9 +38,8 @@ class Formula {
     virtual void plane(std::int64_t z, std::span<float> out) const = 0;
 };
 
-std::unique_ptr<Formula> make_slab(const volume::Index3& n);
-std::unique_ptr<Formula> make_ball(const volume::Index3& n);
-std::unique_ptr<Formula> make_random(const volume::Index3& n, std::uint64_t seed);
+// One of synthetic::kinds(); null for any other name.
+std::unique_ptr<Formula> make_synthetic(std::string_view name, const volume::Index3& n, std::uint64_t seed);
 std::unique_ptr<Formula> make_hi_galaxy(const volume::Index3& n, std::uint64_t seed);
 std::unique_ptr<Formula> make_cosmic_web(const volume::Index3& n, std::uint64_t seed);
 

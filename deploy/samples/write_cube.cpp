@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -23,12 +24,12 @@ using base::Code;
 // cfitsio's handle on a file that is removed again unless it is kept.
 class Draft {
   public:
-    Draft(const std::string& path, const volume::Index3& n)
+    Draft(const std::string& path, const volume::Index3& n, int bitpix)
         : name_(path + ".part" + std::to_string(::getpid())) {
         std::remove(name_.c_str());
         std::array<LONGLONG, 3> lengths = {n[0], n[1], n[2]};
         fits_create_diskfile(&file_, name_.c_str(), &status_);
-        fits_create_imgll(file_, FLOAT_IMG, 3, lengths.data(), &status_);
+        fits_create_imgll(file_, bitpix, 3, lengths.data(), &status_);
     }
     ~Draft() {
         if (file_ != nullptr) {
@@ -106,6 +107,12 @@ class Draft {
     bool kept_ = false;
 };
 
+void round(std::span<float> values) {
+    for (float& value : values) {
+        value = std::nearbyint(value);
+    }
+}
+
 base::Status check_space(const std::string& path, std::uintmax_t bytes, const std::string& operation) {
     std::error_code fault;
     const auto folder = std::filesystem::absolute(path, fault).parent_path();
@@ -120,15 +127,16 @@ base::Status check_space(const std::string& path, std::uintmax_t bytes, const st
 
 }  // namespace
 
-base::Status write_cube(const Formula& formula, const volume::Index3& n, const std::string& path,
+base::Status write_cube(const Formula& formula, const volume::Index3& n, int bitpix, const std::string& path,
                         const volume::Progress& progress, const std::stop_token& stop) {
     const std::string operation = "write " + path;
     const auto plane = static_cast<std::size_t>(n[0] * n[1]);
-    const auto bytes = static_cast<std::uintmax_t>(volume::voxel_count(n)) * sizeof(float);
+    const std::uintmax_t bytes_each = bitpix == 8 ? 1 : sizeof(float);
+    const auto bytes = static_cast<std::uintmax_t>(volume::voxel_count(n)) * bytes_each;
     if (base::Status space = check_space(path, bytes, operation); !space) {
         return space;
     }
-    Draft draft(path, n);
+    Draft draft(path, n, bitpix);
     draft.describe(formula.description());
     constexpr int most_threads = 8;  // each holds a plane
     base::Workers workers(std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, most_threads));
@@ -142,7 +150,11 @@ base::Status write_cube(const Formula& formula, const volume::Index3& n, const s
             return base::error(Code::cancelled, operation, "stopped");
         }
         for (std::int64_t i = 0; i < count; ++i) {
-            draft.append(planes[static_cast<std::size_t>(i)]);
+            std::vector<float>& values = planes[static_cast<std::size_t>(i)];
+            if (bitpix == 8) {
+                round(values);  // cfitsio would cut off
+            }
+            draft.append(values);
         }
         if (progress) {
             progress(static_cast<double>(z + count) / static_cast<double>(n[2]));

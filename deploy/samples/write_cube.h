@@ -10,8 +10,8 @@
 
 namespace shearwater::samples {
 
-// As write_sample says of the file, its name and what is left of it.
-base::Status write_cube(const Formula& formula, const volume::Index3& n, const std::string& path,
+// As write_sample says of the file, its name and what is left of it. `bitpix` is -32 or 8.
+base::Status write_cube(const Formula& formula, const volume::Index3& n, int bitpix, const std::string& path,
                         const volume::Progress& progress, const std::stop_token& stop);
 
 }  // namespace shearwater::samples

@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "common/base/memory.h"
-#include "common/fits/cube.h"
+#include "common/cube/open.h"
 #include "common/volume/statistics.h"
 #include "protocol/node/merge.h"
 #include "renderer/shear/render.h"
@@ -65,9 +65,9 @@ void Jobs::perform(leaf::Effect effect) {
 }
 
 base::Result<Jobs::Source> Jobs::open(leaf::Job job, const leaf::Share& share, const std::stop_token& stop) {
-    auto cube = fits::Cube::open(share.path, {.hdu = share.hdu, .plane = share.plane, .stop = stop});
-    if (cube && cube->info().n == share.lattice.n) {
-        return Source(std::make_shared<fits::Cube>(*std::move(cube)));
+    auto cube = cube::open(share.path, {.hdu = share.hdu, .plane = share.plane, .stop = stop});
+    if (cube && cube->info.n == share.lattice.n) {
+        return Source(std::move(cube->source));
     }
     const bool not_here =
         cube || cube.error().code == base::Code::not_found || cube.error().code == base::Code::io;

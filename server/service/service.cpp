@@ -19,7 +19,8 @@ double seconds_since(wire::Time begin) {
 
 }  // namespace
 
-Service::Service(int threads, fits::Cube cube, std::function<void(head::JobEvent)> tell)
+Service::Service(int threads, std::unique_ptr<volume::VoxelSource> cube,
+                 std::function<void(head::JobEvent)> tell)
     : cube_(std::move(cube)), tell_(std::move(tell)), workers_(threads) {}
 
 Service::~Service() {
@@ -68,7 +69,7 @@ void Service::read_voxels(const head::ReadVoxels& job) {
         voxels.set_error("more voxels at a time than are sent");
     } else {
         std::vector<float> values(static_cast<std::size_t>(box->voxels()));
-        if (const auto read = cube_.read(*box, values); read) {
+        if (const auto read = cube_->read(*box, values); read) {
             payload.resize(values.size() * sizeof(float));
             std::memcpy(payload.data(), values.data(), payload.size());
         } else {

@@ -4,10 +4,11 @@
 
 #include <boost/asio/thread_pool.hpp>
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "common/base/workers.h"
-#include "common/fits/cube.h"
+#include "common/volume/source.h"
 #include "server/head/head.h"
 
 namespace shearwater::service {
@@ -15,7 +16,7 @@ namespace shearwater::service {
 class Service {
   public:
     // `tell` is called from the jobs' threads and must only pass the event on.
-    Service(int threads, fits::Cube cube, std::function<void(head::JobEvent)> tell);
+    Service(int threads, std::unique_ptr<volume::VoxelSource> cube, std::function<void(head::JobEvent)> tell);
     ~Service();
     Service(const Service&) = delete;
     Service& operator=(const Service&) = delete;
@@ -26,7 +27,7 @@ class Service {
     void finish(const head::Finish& job);
     void read_voxels(const head::ReadVoxels& job);
 
-    fits::Cube cube_;  // touched by the reading thread only
+    std::unique_ptr<volume::VoxelSource> cube_;  // touched by the reading thread only
     std::function<void(head::JobEvent)> tell_;
     base::Workers workers_;
     boost::asio::thread_pool frames_{1};

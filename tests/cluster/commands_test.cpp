@@ -1,53 +1,23 @@
 // The command as a person types it: pictures, mistakes, unusable files.
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <regex>
 #include <sstream>
 
 #include "common/image/png.h"
+#include "tests/support/command.h"
 #include "tests/support/cubes.h"
 #include "tests/support/pictures.h"
 
 namespace shearwater {
 namespace {
 
-struct Outcome {
-    int status = -1;
-    std::string out;
-    std::string err;
-};
-
-Outcome run(const std::string& arguments) {
-    const support::TemporaryFolder scratch;
-    const std::string command = std::string("timeout 60 ") + SHEARWATER_BIN + "/shearwater " + arguments +
-                                " 2>" + scratch.path("err") + " </dev/null";
-    Outcome outcome;
-    FILE* const pipe = popen(command.c_str(), "r");
-    std::array<char, 4096> chunk{};
-    for (std::size_t got = 0; (got = fread(chunk.data(), 1, chunk.size(), pipe)) > 0;) {
-        outcome.out.append(chunk.data(), got);
-    }
-    const int ended = pclose(pipe);
-    outcome.status = WIFEXITED(ended) ? WEXITSTATUS(ended) : 128 + WTERMSIG(ended);
-    std::ostringstream text;
-    text << std::ifstream(scratch.path("err")).rdbuf();
-    outcome.err = text.str();
-    return outcome;
-}
-
-// Exit status 2 and one line that says what and why.
-void expect_mistake(const std::string& arguments, const std::string& word) {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.status, 2) << arguments << "\n" << outcome.err;
-    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << arguments << "\n" << outcome.err;
-    EXPECT_NE(outcome.err.find(word), std::string::npos) << arguments << "\n" << outcome.err;
-}
+using support::expect_mistake;
+using support::Outcome;
+using support::run;
 
 class Commands : public testing::Test {
   protected:
@@ -69,6 +39,25 @@ TEST_F(Commands, SnapshotIsTheSameWithAndWithoutDaemons) {
         EXPECT_TRUE(support::lit(*single));
         EXPECT_LE(support::difference(*single, *tree).largest, 1);
     }
+}
+
+TEST_F(Commands, ACubeByFormulaIsDrawnLikeTheFileOfIt) {
+    const std::string view = " --range 0 255 --azimuth 40 --size 120x90 --tree ";
+    ASSERT_EQ(run("sample noise-sources --size 40 34 29 --seed 6 -o " + cube_).status, 0);
+    ASSERT_EQ(run("snapshot " + cube_ + " -o " + png_ + view + "1,1").status, 0);
+    const auto file = image::read_png(png_);
+    ASSERT_TRUE(file);
+    EXPECT_TRUE(support::lit(*file));
+    for (const std::string tree : {"1,1", "2,3"}) {
+        const Outcome outcome = run("snapshot synthetic:noise-sources:40,34,29:6 -o " + png_ + view + tree);
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        const auto formula = image::read_png(png_);
+        ASSERT_TRUE(formula);
+        EXPECT_LE(support::difference(*file, *formula).largest, tree == "1,1" ? 0 : 1);
+    }
+    const Outcome info = run("info synthetic:noise-sources:40,34,29:6");
+    EXPECT_EQ(info.status, 0);
+    EXPECT_NE(info.out.find("40 x 34 x 29"), std::string::npos) << info.out;
 }
 
 TEST_F(Commands, SnapshotReportsInJson) {
@@ -117,6 +106,10 @@ TEST_F(Commands, MistakesGetOneLine) {
     expect_mistake("snapshot --connect 127.0.0.1:1 -o " + png_, "127.0.0.1:1");
     expect_mistake("snapshot --connect nonsense -o " + png_, "nonsense");
     expect_mistake("info /nowhere.fits", "nowhere");
+    expect_mistake("info synthetic:duck:9", "duck");
+    expect_mistake("snapshot synthetic:ball -o " + png_, "synthetic:ball");
+    expect_mistake("snapshot synthetic:ball:1 -o " + png_ + " --tree 1,1", "axis");
+    expect_mistake("sample ball --bitpix 8 -o " + png_, "BITPIX");
     expect_mistake("sample duck -o " + png_, "duck");
     expect_mistake("sample ball -o " + png_ + " --size 0 1 2", "axis");
     expect_mistake("sample ball -o /nowhere/x.fits", "nowhere");
@@ -125,7 +118,7 @@ TEST_F(Commands, MistakesGetOneLine) {
 }
 
 TEST_F(Commands, HelpEndsWithZero) {
-    for (const std::string command : {"", "view", "serve", "snapshot", "info", "sample"}) {
+    for (const std::string command : {"", "view", "serve", "snapshot", "info", "sample", "bench"}) {
         const Outcome outcome = run(command + " --help");
         EXPECT_EQ(outcome.status, 0);
         EXPECT_NE(outcome.out.find("--help"), std::string::npos);

@@ -16,13 +16,14 @@ using testing::HasSubstr;
 
 class Samples : public testing::Test {
   protected:
-    std::vector<float> made(const std::string& name, const volume::Index3& n, std::uint64_t seed = 1) {
-        const base::Status status = write_sample(name, n, seed, path_);
+    std::vector<float> made(const std::string& name, const volume::Index3& n, std::uint64_t seed = 1,
+                            int bitpix = -32) {
+        const base::Status status = write_sample(name, n, seed, path_, {}, {}, bitpix);
         EXPECT_TRUE(status) << (status ? "" : status.error().message());
         auto cube = fits::Cube::open(path_);
         EXPECT_TRUE(cube) << (cube ? "" : cube.error().message());
         EXPECT_EQ(cube->info().n, n);
-        EXPECT_EQ(cube->info().bitpix, -32);
+        EXPECT_EQ(cube->info().bitpix, bitpix);
         EXPECT_TRUE(cube->info().notes.empty());
         return fits::read_box(*cube, volume::whole(n));
     }
@@ -52,7 +53,7 @@ TEST_F(Samples, EveryKindIsMadeInAnyShapeAndIsTheSameAgain) {
 }
 
 TEST_F(Samples, SeedsGiveDifferentCubes) {
-    for (const std::string name : {"hi-galaxy", "nbody-web", "random"}) {
+    for (const std::string name : {"hi-galaxy", "nbody-web", "random", "noise-sources"}) {
         made(name, {16, 16, 16}, 1);
         const std::string first = support::slurp(path_);
         made(name, {16, 16, 16}, 2);
@@ -95,6 +96,22 @@ TEST_F(Samples, RandomIsUniform) {
     const double mean = sum / static_cast<double>(values.size());
     EXPECT_NEAR(mean, 0.5, 0.003);
     EXPECT_NEAR(squares / static_cast<double>(values.size()) - mean * mean, 1.0 / 12, 0.001);
+}
+
+TEST_F(Samples, EightBitsHoldTheRoundedValues) {
+    const volume::Index3 n{40, 30, 20};
+    for (const SampleKind& kind : kinds()) {
+        const std::string name(kind.name);
+        if (!kind.bytes) {
+            EXPECT_EQ(write_sample(name, n, 1, path_, {}, {}, 8).error().code, base::Code::invalid_argument);
+            continue;
+        }
+        std::vector<float> values = made(name, n, 4);
+        const std::size_t long_file = support::slurp(path_).size();
+        std::ranges::transform(values, values.begin(), [](float value) { return std::nearbyint(value); });
+        EXPECT_EQ(made(name, n, 4, 8), values) << name;
+        EXPECT_LT(support::slurp(path_).size(), long_file / 3);
+    }
 }
 
 TEST_F(Samples, GalaxyStandsOutOfItsNoiseAndCornersAreBlank) {

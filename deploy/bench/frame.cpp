@@ -1,0 +1,185 @@
+// bench frame: one process draws frames along the path, or along each axis.
+
+#include <algorithm>
+#include <array>
+
+#include "deploy/bench/in_process.h"
+#include "deploy/bench/options.h"
+#include "deploy/bench/report.h"
+#include "deploy/bench/subcommands.h"
+#include "deploy/bench/workload.h"
+#include "deploy/progress_bar.h"
+
+namespace shearwater::bench {
+namespace {
+
+struct Flags {
+    Options common;
+    options::CubeOptions cube;
+    std::vector<std::string> workloads{"W1"};
+    std::int64_t edge = 256;
+    std::string tf_file;
+    bool parallel = false;
+    bool axes = false;
+};
+
+struct Case {
+    std::string name;
+    options::CubeOptions cube;
+    view::TransferFunction tf;
+};
+
+base::Result<std::vector<Case>> cases_of(const Flags& flags) {
+    std::vector<Case> cases;
+    if (flags.cube.path.empty()) {
+        for (const std::string& name : flags.workloads) {
+            const Workload made = workload(name);
+            cases.push_back({name, made.cube(flags.edge), made.tf});
+            cases.back().cube.bits = flags.cube.bits;
+        }
+        return cases;
+    }
+    deploy::ViewOptions view;
+    view.tf_file = flags.tf_file;
+    const auto tf = view.transfer_function();
+    if (!tf) {
+        return tf.error();
+    }
+    cases.push_back({flags.cube.path, flags.cube, *tf});
+    return cases;
+}
+
+Record row(const Flags& flags, const Case& drawn, const InProcess& cube, const std::string& view,
+           const std::vector<FrameTimes>& frames) {
+    const FrameSummary all = summary(frames);
+    Record record;
+    record.text("workload", drawn.name)
+        .text("cube", cube_text(cube.lattice().n), 12)
+        .text("view", view, 11)
+        .count("threads", static_cast<std::uint64_t>(cube.threads()))
+        .aside("image", flags.common.image)
+        .aside("quality", flags.common.quality)
+        .aside("frames", static_cast<double>(frames.size()))
+        .number("median_s", all.total.median, 5)
+        .number("min_s", all.total.least, 5)
+        .number("max_s", all.total.most, 5)
+        .aside("samples", all.samples)
+        .number("Msamples", all.samples / 1e6, 2)
+        .number("Gsamples_per_s", all.samples_per_second / 1e9, 3)
+        .number("factorise_s", all.factorise, 5)
+        .number("render_s", all.render, 5)
+        .number("warp_s", all.warp, 5)
+        .number("encode_s", all.encode, 5);
+    return record;
+}
+
+// The path's first view with the cube's axes changed in a ring `steps` times, so that it is the same
+// view along each of them.
+view::Camera along_axis(view::Camera camera, int steps) {
+    for (int i = 0; i < steps; ++i) {
+        camera.eye = {camera.eye.z, camera.eye.x, camera.eye.y};
+        camera.up = {camera.up.z, camera.up.x, camera.up.y};
+    }
+    return camera;
+}
+
+base::Status draw_axes(const Flags& flags, const Case& drawn, const InProcess& cube,
+                       const deploy::ViewOptions& view, Report& report) {
+    const auto camera = view.camera(cube.lattice());
+    if (!camera) {
+        return camera.error();
+    }
+    const view::ImageSize size = *view.image_size();
+    constexpr std::array<const char*, 3> names{"along z", "along x", "along y"};
+    std::array<std::vector<FrameTimes>, 3> frames;
+    deploy::ProgressBar bar(drawn.name);
+    // By turns, so that a slow phase of the machine falls on all of them.
+    for (int i = -1; i < flags.common.frames; ++i) {
+        for (int steps = 0; steps < 3; ++steps) {
+            const FrameTimes times =
+                cube.draw(along_axis(*camera, steps), size, view.quality_value(), drawn.tf);
+            if (i >= 0) {
+                frames.at(static_cast<std::size_t>(steps)).push_back(times);
+            }
+        }
+        bar.show(static_cast<double>(i + 2) / (flags.common.frames + 1));
+    }
+    for (const std::size_t axis : {1U, 2U, 0U}) {
+        report.add(row(flags, drawn, cube, names.at(axis), frames.at(axis)));
+    }
+    return {};
+}
+
+base::Status draw(const Flags& flags, const Case& drawn, Report& report) {
+    const auto cube = [&] {
+        deploy::ProgressBar bar("loading " + drawn.name);
+        return InProcess::load(drawn.cube, flags.common.threads, [&](double share) { bar.show(share); });
+    }();
+    if (!cube) {
+        return cube.error();
+    }
+    auto view = flags.common.view(std::ranges::max(cube->lattice().n));
+    if (!view) {
+        return view.error();
+    }
+    view->parallel = flags.parallel;
+    if (flags.axes) {
+        return draw_axes(flags, drawn, *cube, *view, report);
+    }
+    deploy::ProgressBar bar(drawn.name);
+    const auto frames =
+        cube->draw_path(*view, flags.common.frames, drawn.tf, [&](double share) { bar.show(share); });
+    if (!frames) {
+        return frames.error();
+    }
+    report.add(row(flags, drawn, *cube, flags.parallel ? "parallel" : "perspective", *frames));
+    return {};
+}
+
+base::Status frame(const Flags& flags) {
+    if (auto valid = flags.cube.validate(); !valid) {
+        return valid;
+    }
+    if (const auto view = flags.common.view(flags.edge); !view) {
+        return view.error();
+    }
+    const auto cases = cases_of(flags);
+    if (!cases) {
+        return cases.error();
+    }
+    auto report = Report::open("frame", flags.common.json);
+    if (!report) {
+        return report.error();
+    }
+    for (const Case& drawn : *cases) {
+        if (auto done = draw(flags, drawn, *report); !done) {
+            return done;
+        }
+    }
+    return report->close();
+}
+
+}  // namespace
+
+Run add_frame(CLI::App& app) {
+    auto flags = std::make_shared<Flags>();
+    auto* const cube = app.add_option("cube", flags->cube.path, "a FITS file to draw instead of a workload");
+    app.add_option("--workload", flags->workloads, "what is drawn; several with commas between")
+        ->delimiter(',')
+        ->check(CLI::IsMember(workload_names()))
+        ->excludes(cube)
+        ->capture_default_str();
+    add_size(app, flags->edge);
+    app.add_option("--tf", flags->tf_file, "the FITS file's transfer function, a TOML file")->needs(cube);
+    app.add_flag("--parallel", flags->parallel, "parallel projection");
+    app.add_flag("--axes", flags->axes, "the first view alone, along each of the cube's axes");
+    flags->common.add_frames(app);
+    flags->common.add_image(app);
+    flags->common.add_quality(app);
+    flags->common.add_threads(app);
+    flags->common.add_json(app);
+    flags->cube.add_to(app);
+    return [flags] { return status_of("frame", frame(*flags)); };
+}
+
+}  // namespace shearwater::bench

@@ -1,0 +1,235 @@
+// bench load: how fast a float cube in the page cache becomes bricks.
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "common/cube/open.h"
+#include "common/volume/quantiser.h"
+#include "common/volume/statistics.h"
+#include "deploy/bench/machine.h"
+#include "deploy/bench/options.h"
+#include "deploy/bench/report.h"
+#include "deploy/bench/subcommands.h"
+#include "deploy/bench/timing.h"
+#include "deploy/progress_bar.h"
+#include "deploy/samples/sample.h"
+#include "protocol/daemon/interrupt.h"
+#include "renderer/shear/brick_volume.h"
+
+namespace shearwater::bench {
+namespace {
+
+struct Flags {
+    Options common;
+    std::string path;
+    std::string folder;
+    std::int64_t edge = 256;
+    int bits = 8;
+};
+
+// A file of our own, removed with its folder.
+class Scratch {
+  public:
+    explicit Scratch(const std::filesystem::path& in) {
+        std::string pattern = (in / "shearwater-bench-XXXXXX").string();
+        if (mkdtemp(pattern.data()) != nullptr) {
+            folder_ = pattern;
+        }
+    }
+    ~Scratch() {
+        std::error_code ignored;
+        if (!folder_.empty()) {
+            std::filesystem::remove_all(folder_, ignored);
+        }
+    }
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+
+    std::string cube() const { return (folder_ / "cube.fits").string(); }
+    bool made() const { return !folder_.empty(); }
+
+  private:
+    std::filesystem::path folder_;
+};
+
+// Reads the whole cube a slab of planes at a time, handing each on.
+base::Status read_slabs(cube::Cube& cube, const std::function<void(std::span<const float>)>& use) {
+    const auto& n = cube.info.n;
+    constexpr std::int64_t slab_voxels = std::int64_t{8} << 20;
+    const std::int64_t planes = std::clamp<std::int64_t>(slab_voxels / (n[0] * n[1]), 1, n[2]);
+    std::vector<float> values(static_cast<std::size_t>(n[0] * n[1] * planes));
+    for (std::int64_t z = 0; z < n[2]; z += planes) {
+        const volume::Box slab{{0, 0, z}, {n[0] - 1, n[1] - 1, std::min(z + planes, n[2]) - 1}};
+        const std::span part(values.data(), static_cast<std::size_t>(slab.voxels()));
+        if (auto read = cube.source->read(slab, part); !read) {
+            return read;
+        }
+        use(part);
+    }
+    return {};
+}
+
+// Quantises values that lie in memory, in pieces that the workers share.
+void quantise(const volume::Quantiser& quantiser, std::span<const float> values,
+              std::span<std::uint8_t> codes8, std::span<std::uint16_t> codes16, base::Workers& workers) {
+    constexpr std::size_t piece = std::size_t{1} << 16U;
+    workers.for_each(static_cast<std::int64_t>((values.size() + piece - 1) / piece), [&](std::int64_t i) {
+        const std::size_t first = static_cast<std::size_t>(i) * piece;
+        const std::size_t count = std::min(piece, values.size() - first);
+        if (codes16.empty()) {
+            quantiser.codes(values.subspan(first, count), codes8.subspan(first, count));
+        } else {
+            quantiser.codes(values.subspan(first, count), codes16.subspan(first, count));
+        }
+    });
+}
+
+class Loading {
+  public:
+    Loading(const Flags& flags, cube::Cube cube, Report& report)
+        : flags_(flags), cube_(std::move(cube)), report_(report), workers_(flags.common.threads) {}
+
+    base::Status run() {
+        const auto ignore = [](std::span<const float>) {};
+        if (auto warm = read_slabs(cube_, ignore); !warm) {
+            return warm;
+        }
+        base::Status done;
+        time("read", 1, [&] { done = read_slabs(cube_, ignore); });
+        if (!done) {
+            return done;
+        }
+        auto histogram =
+            volume::count_values(*cube_.source, volume::whole(cube_.info.n), cube_.info.n, workers_);
+        time("read and count", workers_.threads(), [&] {
+            histogram =
+                volume::count_values(*cube_.source, volume::whole(cube_.info.n), cube_.info.n, workers_);
+        });
+        if (!histogram) {
+            return histogram.error();
+        }
+        const volume::Limits limits = volume::percentile_limits(*histogram, 99.5);
+        const volume::Mapping mapping{.lo = limits.lo, .hi = limits.hi, .bits = flags_.bits};
+        time_quantising(mapping);
+        time("bricks from the file", workers_.threads(), [&] {
+            const auto bricks = shear::BrickVolume::load(*cube_.source, volume::whole(cube_.info.n),
+                                                         cube_.info.n, mapping, workers_);
+            done = bricks ? base::Status{} : bricks.error();
+        });
+        return done;
+    }
+
+  private:
+    void time(const std::string& stage, int threads, const std::function<void()>& work) {
+        deploy::ProgressBar bar(stage);
+        bar.show(0);
+        const auto voxels = static_cast<double>(volume::voxel_count(cube_.info.n));
+        add(stage, threads, voxels, measure_times(flags_.common.frames, work));
+    }
+
+    // One slab over and over: its values are in memory, as they are when a file has just been read.
+    void time_quantising(const volume::Mapping& mapping) {
+        constexpr std::size_t most = std::size_t{8} << 20U;
+        std::vector<float> values;
+        const auto keep = [&](std::span<const float> part) {
+            const std::size_t room = most - std::min(most, values.size());
+            values.insert(values.end(), part.begin(),
+                          part.begin() + static_cast<std::ptrdiff_t>(std::min(room, part.size())));
+        };
+        if (!read_slabs(cube_, keep)) {
+            return;
+        }
+        const volume::Quantiser quantiser(mapping);
+        std::vector<std::uint8_t> codes8(mapping.bits == 8 ? values.size() : 0);
+        std::vector<std::uint16_t> codes16(mapping.bits == 16 ? values.size() : 0);
+        const Spread times = measure_times(flags_.common.frames,
+                                           [&] { quantise(quantiser, values, codes8, codes16, workers_); });
+        add("quantise in memory", workers_.threads(), static_cast<double>(values.size()), times);
+    }
+
+    void add(const std::string& stage, int threads, double voxels, const Spread& times) {
+        Record record;
+        record.text("stage", stage, 20)
+            .text("cube", cube_text(cube_.info.n))
+            .count("bits", static_cast<std::uint64_t>(flags_.bits))
+            .count("threads", static_cast<std::uint64_t>(threads))
+            .aside("repeats", flags_.common.frames)
+            .aside("voxels", voxels)
+            .number("median_s", times.median, 4)
+            .number("min_s", times.least, 4)
+            .number("max_s", times.most, 4)
+            .number("MB_per_s", voxels * sizeof(float) / times.median / 1e6, 0)
+            .number("Mvoxels_per_s", voxels / times.median / 1e6, 0);
+        report_.add(record);
+    }
+
+    const Flags& flags_;
+    cube::Cube cube_;
+    Report& report_;
+    base::Workers workers_;
+};
+
+base::Status make_cube(const Flags& flags, const Scratch& scratch) {
+    if (!scratch.made()) {
+        return base::error(base::Code::io, "make a cube in " + flags.folder, "no folder can be made there");
+    }
+    const daemon::Interrupt interrupt;
+    deploy::ProgressBar bar("making a cube");
+    return samples::write_sample(
+        "random", {flags.edge, flags.edge, flags.edge}, 1, scratch.cube(),
+        [&](double share) { bar.show(share); }, interrupt.token());
+}
+
+base::Status load(const Flags& flags) {
+    auto report = Report::open("load", flags.common.json);
+    if (!report) {
+        return report.error();
+    }
+    std::optional<Scratch> scratch;
+    std::string path = flags.path;
+    if (path.empty()) {
+        scratch.emplace(flags.folder);
+        if (auto made = make_cube(flags, *scratch); !made) {
+            return made;
+        }
+        path = scratch->cube();
+    }
+    auto cube = cube::open(path);
+    if (!cube) {
+        return cube.error();
+    }
+    const auto bytes = static_cast<std::uint64_t>(volume::voxel_count(cube->info.n) * flags.bits / 8);
+    if (auto fits = check_memory("load " + path, bytes); !fits) {
+        return fits;
+    }
+    if (auto done = Loading(flags, *std::move(cube), *report).run(); !done) {
+        return done;
+    }
+    report->note("MB are those of the cube as 32-bit floats.");
+    return report->close();
+}
+
+}  // namespace
+
+Run add_load(CLI::App& app) {
+    auto flags = std::make_shared<Flags>();
+    flags->common.frames = 5;
+    std::error_code none;
+    flags->folder = std::filesystem::temp_directory_path(none).string();
+    auto* const cube = app.add_option("cube", flags->path, "a FITS file; else one of random values is made");
+    add_size(app, flags->edge);
+    app.add_option("--folder", flags->folder, "where the cube is made, for as long as it is needed")
+        ->excludes(cube)
+        ->capture_default_str();
+    app.add_option("--bits", flags->bits, "a voxel is held in")
+        ->check(CLI::IsMember({8, 16}))
+        ->capture_default_str();
+    app.add_option("--repeat", flags->common.frames, "how often each stage is done")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    flags->common.add_threads(app);
+    flags->common.add_json(app);
+    return [flags] { return status_of("load", load(*flags)); };
+}
+
+}  // namespace shearwater::bench

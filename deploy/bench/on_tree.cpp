@@ -1,0 +1,54 @@
+#include "deploy/bench/on_tree.h"
+
+#include "common/cube/open.h"
+#include "deploy/bench/machine.h"
+#include "deploy/bench/workload.h"
+#include "deploy/over_links.h"
+
+namespace shearwater::bench {
+
+base::Result<OnTree> OnTree::start(const options::CubeOptions& cube, int branching, int levels, int threads) {
+    const auto opened = cube::open(cube.path, cube.open_options());
+    if (!opened) {
+        return opened.error();
+    }
+    const auto voxels = static_cast<std::uint64_t>(volume::voxel_count(opened->info.n));
+    if (const auto fits =
+            check_memory("load " + cube.path, voxels * static_cast<std::uint64_t>(cube.bits / 8));
+        !fits) {
+        return fits.error();
+    }
+    deploy::LocalTree::Options options{.cube = cube, .tree = {}, .threads = threads, .log_level = "warn"};
+    options.tree.tree = {branching, levels};
+    const auto topology = options.tree.topology();
+    if (!topology) {
+        return topology.error();
+    }
+    const link::Secret secret = link::Secret::random();
+    auto tree = deploy::LocalTree::start(options, secret);
+    if (!tree) {
+        return tree.error();
+    }
+    deploy::Target target{.server = tree->address(), .secret = secret, .tree = {}};
+    target.tree.emplace(*std::move(tree));
+    return OnTree(std::move(target), topology->renderers(), static_cast<int>(topology->nodes.size()));
+}
+
+base::Result<deploy::Picture> OnTree::draw_path(deploy::ViewOptions view, int frames,
+                                                const view::TransferFunction& tf,
+                                                const volume::Progress& progress) {
+    const auto size = view.image_size();
+    if (!size) {
+        return size.error();
+    }
+    view.orbit.azimuth -= Path::turn;
+    auto picture = deploy::draw_over_links("shearwater bench", target_, view, tf, *size,
+                                           {.times = frames + 1, .turn = Path::turn}, progress);
+    if (picture) {
+        picture->each.erase(picture->each.begin());
+        picture->seconds = deploy::median(picture->each);
+    }
+    return picture;
+}
+
+}  // namespace shearwater::bench

@@ -1,0 +1,248 @@
+// Every benchmark as it is typed: tiny runs, what they say, and mistakes. Nothing here is about speed.
+
+#include <gmock/gmock.h>
+#include <google/protobuf/struct.pb.h>
+#include <google/protobuf/util/json_util.h>
+
+#include <filesystem>
+
+#include "deploy/samples/sample.h"
+#include "tests/support/command.h"
+
+namespace shearwater {
+namespace {
+
+using support::expect_mistake;
+using support::Outcome;
+using support::run;
+
+using Line = google::protobuf::Struct;
+
+std::vector<Line> parsed(const std::string& text) {
+    std::vector<Line> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) {
+        Line object;
+        const auto status = google::protobuf::util::JsonStringToMessage(line, &object);
+        EXPECT_TRUE(status.ok()) << status.ToString() << "\n" << line;
+        lines.push_back(object);
+    }
+    return lines;
+}
+
+double number(const Line& line, const std::string& key) {
+    const auto found = line.fields().find(key);
+    EXPECT_TRUE(found != line.fields().end() && found->second.has_number_value()) << key;
+    return found == line.fields().end() ? 0 : found->second.number_value();
+}
+
+std::string text(const Line& line, const std::string& key) {
+    const auto found = line.fields().find(key);
+    EXPECT_TRUE(found != line.fields().end() && found->second.has_string_value()) << key;
+    return found == line.fields().end() ? "" : found->second.string_value();
+}
+
+bool has_no(const Line& line, const std::string& key) {
+    const auto found = line.fields().find(key);
+    return found != line.fields().end() && found->second.has_null_value();
+}
+
+// The rows of a run, whose first line is the machine.
+std::vector<Line> rows(const std::string& benchmark, const std::string& arguments) {
+    const Outcome outcome = run("bench " + benchmark + " --json - " + arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    std::vector<Line> lines = parsed(outcome.out);
+    EXPECT_GE(lines.size(), 2U);
+    for (const Line& line : lines) {
+        EXPECT_EQ(text(line, "bench"), benchmark);
+    }
+    if (!lines.empty()) {
+        const Line machine = lines.front().fields().at("machine").struct_value();
+        EXPECT_NE(text(machine, "cpu"), "");
+        EXPECT_GE(number(machine, "cores"), 1);
+        EXPECT_GT(number(machine, "memory_bytes"), 0);
+        EXPECT_NE(text(machine, "simd"), "");
+        EXPECT_NE(text(machine, "version"), "");
+        lines.erase(lines.begin());
+    }
+    return lines;
+}
+
+void expect_times(const Line& line, double to_seconds = 1, const std::string& unit = "s") {
+    const double median = number(line, "median_" + unit) * to_seconds;
+    EXPECT_GT(median, 0);
+    EXPECT_LT(median, 60);
+    EXPECT_LE(number(line, "min_" + unit) * to_seconds, median);
+}
+
+TEST(Bench, Frame) {
+    const auto lines = rows("frame", "--workload W1,W2,W3 --size 20 --image 40x30 --frames 2 --threads 2");
+    ASSERT_EQ(lines.size(), 3U);
+    for (const Line& line : lines) {
+        expect_times(line);
+        EXPECT_EQ(text(line, "cube"), "20x20x20");
+        EXPECT_EQ(text(line, "view"), "perspective");
+        EXPECT_EQ(number(line, "threads"), 2);
+        EXPECT_EQ(number(line, "frames"), 2);
+        EXPECT_GT(number(line, "samples"), 0);
+        EXPECT_GT(number(line, "Gsamples_per_s"), 0);
+        const double stages = number(line, "factorise_s") + number(line, "render_s") +
+                              number(line, "warp_s") + number(line, "encode_s");
+        EXPECT_LE(stages, number(line, "max_s") * 1.5);
+    }
+    EXPECT_EQ(text(lines[2], "workload"), "W3");
+    const auto parallel = rows("frame", "--parallel --size 20 --image 40x30 --frames 1 --quality draft");
+    EXPECT_EQ(text(parallel.at(0), "view"), "parallel");
+}
+
+TEST(Bench, FrameAlongEachAxisIsTheSameView) {
+    const auto lines = rows("frame", "--axes --size 20 --image 40x40 --frames 1");
+    ASSERT_EQ(lines.size(), 3U);
+    EXPECT_EQ(text(lines[0], "view"), "along x");
+    EXPECT_EQ(text(lines[2], "view"), "along z");
+    for (const Line& line : lines) {
+        EXPECT_NEAR(number(line, "samples"), number(lines[0], "samples"), number(lines[0], "samples") / 100);
+    }
+}
+
+TEST(Bench, FrameOfAFile) {
+    const support::TemporaryFolder scratch;
+    const std::string cube = scratch.path("cube.fits");
+    ASSERT_TRUE(samples::write_sample("nbody-web", {20, 30, 25}, 3, cube));
+    std::ofstream(scratch.path("flat.toml")) << "[[opacity]]\nkind = \"flat\"\nheight = 0.2\n";
+    const auto lines = rows("frame", cube + " --tf " + scratch.path("flat.toml") + " --frames 1 --bits 16");
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_EQ(text(lines[0], "cube"), "20x30x25");
+}
+
+TEST(Bench, TreesStandBesideThePaper) {
+    const auto lines = rows("trees", "--sizes 16,64 --nodes 1,3,7 --frames 2 --image 32x32");
+    ASSERT_EQ(lines.size(), 6U);
+    for (const Line& line : lines) {
+        expect_times(line);
+        EXPECT_NEAR(number(line, "frames_per_s") * number(line, "median_s"), 1, 1e-6);
+    }
+    EXPECT_EQ(number(lines[1], "renderers"), 2);
+    EXPECT_EQ(number(lines[2], "renderers"), 4);
+    EXPECT_TRUE(has_no(lines[1], "paper_s"));
+    EXPECT_TRUE(has_no(lines[3], "paper_s"));
+    EXPECT_EQ(number(lines[4], "paper_s"), 0.2);
+    EXPECT_EQ(number(lines[5], "paper_s"), 0.18);
+    EXPECT_NEAR(number(lines[4], "efficiency"), 1, 1e-6);
+}
+
+TEST(Bench, Images) {
+    const auto lines = rows("images", "--images 16x16,100x100,40x20 --frames 1");
+    ASSERT_EQ(lines.size(), 3U);
+    EXPECT_EQ(number(lines[1], "paper_s"), 0.32);
+    EXPECT_TRUE(has_no(lines[2], "paper_s"));
+    for (const Line& line : lines) {
+        EXPECT_EQ(number(line, "nodes"), 7);
+        EXPECT_GT(number(line, "median_s"), 0);
+        EXPECT_GT(number(line, "one_process_s"), 0);
+    }
+}
+
+TEST(Bench, StagesAddUp) {
+    const auto lines = rows("stages", "--size 16 --image 32x32 --frames 1 --tree 2,2");
+    ASSERT_EQ(lines.size(), 6U);
+    double sum = 0;
+    for (const Line& line : lines) {
+        sum += number(line, "median_ms");
+    }
+    EXPECT_EQ(text(lines[5], "stage"), "total");
+    EXPECT_NEAR(sum, 2 * number(lines[5], "median_ms"), 1e-4 * sum);
+    EXPECT_EQ(number(lines[5], "per_cent"), 100);
+}
+
+TEST(Bench, LoadMakesItsFileAndRemovesIt) {
+    const support::TemporaryFolder scratch;
+    for (const std::string bits : {"8", "16"}) {
+        const auto lines =
+            rows("load", "--size 24 --repeat 2 --bits " + bits + " --folder " + scratch.path(""));
+        ASSERT_EQ(lines.size(), 4U);
+        for (const Line& line : lines) {
+            expect_times(line);
+            EXPECT_GT(number(line, "MB_per_s"), 0);
+        }
+        EXPECT_TRUE(std::filesystem::is_empty(scratch.path()));
+    }
+    const std::string cube = scratch.path("cube.fits");
+    ASSERT_TRUE(samples::write_sample("ball", {20, 30, 25}, 3, cube));
+    EXPECT_EQ(text(rows("load", cube + " --repeat 1").at(0), "cube"), "20x30x25");
+}
+
+TEST(Bench, Codecs) {
+    const auto lines = rows("codecs", "--size 16 --image 32x32 --seconds 0 --threads 1");
+    ASSERT_EQ(lines.size(), 30U);
+    for (const Line& line : lines) {
+        expect_times(line, 1e-3, "ms");
+        EXPECT_GT(number(line, "pixels"), 0);
+    }
+    EXPECT_EQ(text(lines[0], "what"), "rle encode");
+    EXPECT_GT(number(lines[0], "bytes_left"), 0);
+}
+
+TEST(Bench, LargeNeedsNoFile) {
+    const auto lines = rows("large", "--synthetic 40 --tree 4,2 --frames 1 --image 32x32 --workload W3");
+    ASSERT_EQ(lines.size(), 1U);
+    expect_times(lines[0]);
+    EXPECT_EQ(number(lines[0], "renderers"), 4);
+    EXPECT_GT(number(lines[0], "MiB_each"), 1);
+    EXPECT_TRUE(has_no(lines[0], "paper_s"));
+}
+
+TEST(Bench, TheTableAndTheLinesSayTheSame) {
+    const support::TemporaryFolder scratch;
+    const std::string json = scratch.path("lines.json");
+    const Outcome outcome = run("bench frame --size 16 --image 20x20 --frames 1 --json " + json);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, testing::HasSubstr("median s"));
+    EXPECT_THAT(outcome.out, testing::HasSubstr("16x16x16"));
+    EXPECT_THAT(outcome.out, testing::StartsWith("shearwater "));
+    std::ostringstream lines;
+    lines << std::ifstream(json).rdbuf();
+    EXPECT_EQ(parsed(lines.str()).size(), 2U);
+}
+
+TEST(Bench, MistakesGetOneLine) {
+    expect_mistake("bench", "benchmark");
+    expect_mistake("bench paint", "paint");
+    expect_mistake("bench frame --workload W9", "W9");
+    expect_mistake("bench frame --size 1", "size");
+    expect_mistake("bench frame --image pear", "pear");
+    expect_mistake("bench frame --image 9999x9999", "--image");
+    expect_mistake("bench frame --frames 0", "frames");
+    expect_mistake("bench frame --quality best", "best");
+    expect_mistake("bench frame /nowhere.fits", "nowhere");
+    expect_mistake("bench frame /nowhere.fits --workload W1", "workload");
+    expect_mistake("bench frame --tf some.toml", "cube");
+    expect_mistake("bench frame --size 500000", "memory");
+    expect_mistake("bench frame --json /nowhere/lines", "nowhere");
+    expect_mistake("bench trees --nodes 5", "5");
+    expect_mistake("bench trees --sizes 8,pear", "pear");
+    expect_mistake("bench trees --image 0x5", "picture");
+    expect_mistake("bench trees --sizes 2 --nodes 7", "too few");
+    expect_mistake("bench images --size 8 --images 8x8,pear", "pear");
+    expect_mistake("bench stages --tree 2", "tree");
+    expect_mistake("bench stages --size 8 --tree 40,2", "too few");
+    expect_mistake("bench load /nowhere.fits", "nowhere");
+    expect_mistake("bench load --folder /nowhere", "nowhere");
+    expect_mistake("bench load --bits 9", "bits");
+    expect_mistake("bench codecs --seconds -1", "seconds");
+    expect_mistake("bench large --synthetic 1000000", "memory");
+    expect_mistake("bench large --colour 3", "colour");
+}
+
+TEST(Bench, HelpEndsWithZero) {
+    for (const std::string benchmark :
+         {"", "frame", "trees", "images", "stages", "load", "codecs", "large"}) {
+        const Outcome outcome = run("bench " + benchmark + " --help");
+        EXPECT_EQ(outcome.status, 0);
+        EXPECT_NE(outcome.out.find("--help"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace shearwater
