@@ -18,7 +18,7 @@ namespace {
 junction::MergeDone carry_out(const junction::Merge& merge) {
     const base::MemoryUse memory = base::memory_use();
     return {.frame = merge.job.frame,
-            .windows = node::to_message(node::merge(merge.job)),
+            .windows = node::merge_coded(merge.job),
             .memory = {memory.resident, memory.peak}};
 }
 
