@@ -25,7 +25,6 @@ struct Memory {
 struct MergeDone {
     std::uint64_t frame;
     wire::Message windows;  // what came of it
-    Memory memory;
 };
 
 struct Effects {
@@ -40,6 +39,7 @@ class Junction {
     Effects start();
     Effects handle(const wire::NetEvent& event, wire::Time now);
     Effects handle(MergeDone done);
+    void handle(const Memory& memory) { memory_ = memory; }
 
     const std::string& refusal() const { return member_.refusal(); }
 

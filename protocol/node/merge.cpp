@@ -42,9 +42,8 @@ Given front_to_back(const MergeJob& job) {
         }
         given.windows.insert(given.windows.end(), part.windows.begin(), part.windows.end());
         add_stats(given.stats, part.stats);
-        const std::size_t bytes = part.payload ? part.payload->size() : 0;
-        given.stats.set_window_bytes(given.stats.window_bytes() + bytes);
     }
+    given.stats.set_window_bytes(given.stats.window_bytes() + job.bytes());
     return given;
 }
 
@@ -58,6 +57,14 @@ wire::Message message_of(std::uint64_t frame, image::CodedWindows windows,
 }
 
 }  // namespace
+
+std::size_t MergeJob::bytes() const {
+    std::size_t sum = 0;
+    for (const Part& part : parts) {
+        sum += part.payload ? part.payload->size() : 0;
+    }
+    return sum;
+}
 
 Merged merge(const MergeJob& job) {
     const auto begin = Clock::now();

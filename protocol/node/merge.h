@@ -32,6 +32,8 @@ struct MergeJob {
     view::Factorisation factorisation;
     std::vector<Part> parts;
     std::vector<Missing> missing;
+
+    std::size_t bytes() const;  // that the parts came in
 };
 
 struct Merged {

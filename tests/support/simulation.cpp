@@ -179,7 +179,7 @@ struct Simulation::Compositor final : Simulation::Daemon {
         for (junction::Merge& merge : effects.merges) {
             sim.fabric_.later(number, [this, merge = std::move(merge)] {
                 perform(
-                    junction.handle(junction::MergeDone{merge.job.frame, node::merge_coded(merge.job), {}}));
+                    junction.handle(junction::MergeDone{merge.job.frame, node::merge_coded(merge.job)}));
             });
         }
     }
