@@ -1,6 +1,7 @@
 #include "common/image/window_spans.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 
@@ -34,11 +35,12 @@ bool seen(const RgbaF& pixel) {
 constexpr std::size_t block = 8;
 
 bool any_seen(std::span<const RgbaF> pixels) {
-    bool any = false;
+    std::uint64_t bits = 0;  // most blocks have none, and that is told soonest
     for (const RgbaF& pixel : pixels) {
-        any |= (pixel.r >= least) | (pixel.g >= least) | (pixel.b >= least) | (pixel.a >= least);
+        const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(pixel);
+        bits |= halves[0] | halves[1];
     }
-    return any;
+    return bits != 0 && std::ranges::any_of(pixels, seen);
 }
 
 std::span<const RgbaF> block_at(std::span<const RgbaF> row, std::size_t at) {
