@@ -16,11 +16,11 @@ using namespace shearwater;
 namespace {
 
 junction::MergeDone carry_out(const junction::Merge& merge) {
-    const base::MemoryUse memory = base::memory_use();
-    return {.frame = merge.job.frame,
-            .windows = node::to_message(node::merge(merge.job)),
-            .memory = {memory.resident, memory.peak}};
+    return {.frame = merge.job.frame, .windows = node::merge_coded(merge.job)};
 }
+
+// So much is merged sooner than another thread wakes up and reports back.
+constexpr std::size_t little = std::size_t{1} << 20;
 
 }  // namespace
 
@@ -50,12 +50,21 @@ int main(int argc, char** argv) {
     std::optional<junction::Junction> junction;
     boost::asio::thread_pool merging(1);
     std::optional<daemon::Runtime> runtime;
+    std::size_t merges_away = 0;  // on the other thread; a little one waits for them, to keep the order
     const std::function<void(junction::Effects)> perform = [&](junction::Effects effects) {
         runtime->perform(std::move(effects.net));
         for (junction::Merge& merge : effects.merges) {
+            if (merges_away == 0 && merge.job.bytes() <= little) {
+                perform(junction->handle(carry_out(merge)));
+                continue;
+            }
+            ++merges_away;
             boost::asio::post(merging, [&, merge = std::move(merge)] {
                 auto done = std::make_shared<junction::MergeDone>(carry_out(merge));
-                runtime->post([&, done] { perform(junction->handle(std::move(*done))); });
+                runtime->post([&, done] {
+                    --merges_away;
+                    perform(junction->handle(std::move(*done)));
+                });
             });
         }
     };
@@ -63,6 +72,10 @@ int main(int argc, char** argv) {
     constexpr std::size_t children_at_once = 64;  // as many as a junction has may dial together
     limits.handshakes += children_at_once;
     const auto on_event = [&](const wire::NetEvent& event) {
+        if (std::holds_alternative<wire::Tick>(event)) {
+            const base::MemoryUse memory = base::memory_use();
+            junction->handle(junction::Memory{memory.resident, memory.peak});
+        }
         perform(junction->handle(event, std::chrono::steady_clock::now()));
         if (const auto* down = std::get_if<wire::LinkDown>(&event)) {
             const bool orderly = down->reason == wire::pb::REASON_SHUTDOWN;

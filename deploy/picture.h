@@ -15,7 +15,7 @@ struct Seconds {
     double load = 0;        // until the first picture could be drawn
     double preprocess = 0;  // of it, in process: finding the limits
     double render = 0;      // the slowest renderer's
-    double composite = 0;
+    double composite = 0;   // coding windows and merging them, on the slowest path
     double warp = 0;
     double encode = 0;
     double total = 0;  // from the request to the decoded picture

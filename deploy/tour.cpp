@@ -5,7 +5,7 @@
 
 #include "common/base/workers.h"
 #include "common/fits/cube.h"
-#include "common/image/over.h"
+#include "common/image/over_windows.h"
 #include "common/image/png.h"
 #include "common/image/warp.h"
 #include "common/tree/division.h"

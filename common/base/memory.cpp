@@ -2,27 +2,35 @@
 
 #include <malloc.h>
 
-#include <fstream>
-#include <sstream>
-#include <string>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
 
 namespace shearwater::base {
 
+namespace {
+
+// The number of kibibytes behind a key of /proc/self/status, in bytes; 0 where there is none.
+std::uint64_t bytes_of(std::string_view status, std::string_view key) {
+    const std::size_t at = status.find(key);
+    return at == std::string_view::npos
+               ? 0
+               : std::uint64_t{1024} * std::strtoull(status.data() + at + key.size(), nullptr, 10);
+}
+
+}  // namespace
+
 MemoryUse memory_use() {
-    MemoryUse use;
-    std::ifstream status("/proc/self/status");
-    for (std::string line; std::getline(status, line);) {
-        std::istringstream words(line);
-        std::string key;
-        std::uint64_t kib = 0;
-        words >> key >> kib;
-        if (key == "VmRSS:") {
-            use.resident = kib * 1024;
-        } else if (key == "VmHWM:") {
-            use.peak = kib * 1024;
-        }
+    std::array<char, 8192> text{};
+    std::FILE* const file = std::fopen("/proc/self/status", "r");
+    if (file == nullptr) {
+        return {};
     }
-    return use;
+    const std::size_t size = std::fread(text.data(), 1, text.size() - 1, file);
+    std::fclose(file);
+    const std::string_view status(text.data(), size);
+    return {.resident = bytes_of(status, "VmRSS:"), .peak = bytes_of(status, "VmHWM:")};
 }
 
 void release_free_memory() {

@@ -1,4 +1,7 @@
+#include "common/image/over_windows.h"
+
 #include <algorithm>
+#include <limits>
 
 #include "common/image/over.h"
 
@@ -6,27 +9,134 @@ namespace shearwater::image {
 
 namespace {
 
-std::span<const RgbaF> row_of(const Window& window, int y) {
-    return window.pixels.row(y);
-}
-std::span<const Rgba16> row_of(const WindowView16& window, int y) {
-    const auto width = static_cast<std::size_t>(window.rect.width());
-    return window.pixels.subspan(static_cast<std::size_t>(y) * width, width);
+// The windows of one face, front to back.
+template <class AnyWindow>
+struct Layers {
+    int face;
+    Rect rect;  // that holds them all
+    std::vector<const AnyWindow*> windows;
+};
+
+template <class AnyWindow>
+std::vector<Layers<AnyWindow>> by_face(std::span<const AnyWindow> windows) {
+    std::vector<Layers<AnyWindow>> faces;
+    for (const AnyWindow& window : windows) {
+        if (window.rect.empty()) {
+            continue;
+        }
+        auto found = std::ranges::find(faces, window.face, &Layers<AnyWindow>::face);
+        if (found == faces.end()) {
+            faces.push_back({.face = window.face, .rect = {}, .windows = {}});
+            found = faces.end() - 1;
+        }
+        found->rect = bounding(found->rect, window.rect);
+        found->windows.push_back(&window);
+    }
+    return faces;
 }
 
-// Row by row, so that a row is in the processor's cache from its first window to its last.
-template <class AnyWindow>
-Image<RgbaF> merge_face(int face, const Rect& rect, std::span<const AnyWindow> windows) {
-    Image<RgbaF> merged(rect.width(), rect.height(), Unfilled());
-    for (int y = rect.y0; y < rect.y1; ++y) {
-        const std::span<RgbaF> row = merged.row(y - rect.y0);
-        std::fill(row.begin(), row.end(), RgbaF{});
-        for (const AnyWindow& behind : windows) {
-            if (behind.face == face && !behind.rect.empty() && behind.rect.y0 <= y && y < behind.rect.y1) {
-                const auto x = static_cast<std::size_t>(behind.rect.x0 - rect.x0);
-                const auto pixels = row_of(behind, y - behind.rect.y0);
-                over(row.subspan(x, pixels.size()), pixels);
+// Goes through a face's windows row by row, all at once.
+class Rows {
+  public:
+    explicit Rows(const Layers<SpanWindow>& layers) {
+        for (const SpanWindow* window : layers.windows) {
+            windows_.push_back({window->rect.y0, window->rect.y1, window->bytes.data()});
+        }
+    }
+
+    // The windows that have something in row y, front to back; to be asked for each row once, from the top.
+    struct Row {
+        std::span<const std::byte> bytes;
+        SpanReader spans;
+    };
+    std::vector<Row>& at(int y) {
+        rows_.clear();
+        for (Place& window : windows_) {
+            if (window.y0 <= y && y < window.y1) {
+                const std::byte* const begin = window.row;
+                window.row = after_row(begin);
+                const SpanReader spans(begin);
+                if (!spans.done()) {
+                    rows_.push_back({{begin, window.row}, spans});
+                }
             }
+        }
+        return rows_;
+    }
+
+  private:
+    struct Place {
+        int y0, y1;
+        const std::byte* row;
+    };
+    std::vector<Place> windows_;
+    std::vector<Row> rows_;
+};
+
+// Cuts a row where a window's span begins or ends. `use` is given each stretch that has something: its x, its
+// length, and the pixels of the windows there, front to back.
+class Sweep {
+  public:
+    template <class Use>
+    void operator()(std::vector<Rows::Row>& rows, const Use& use) {
+        while (true) {
+            std::erase_if(rows, [](const Rows::Row& row) { return row.spans.done(); });
+            if (rows.empty()) {
+                return;
+            }
+            const auto first = [](const Rows::Row& row) { return row.spans.x(); };
+            const int x = first(std::ranges::min(rows, {}, first));
+            int end = std::numeric_limits<int>::max();
+            covering_.clear();
+            for (const Rows::Row& row : rows) {
+                if (row.spans.x() == x) {
+                    covering_.push_back(row.spans.pixels());
+                }
+                end = std::min(end, row.spans.x() == x ? row.spans.end() : row.spans.x());
+            }
+            use(x, end - x, std::span<const Rgba16* const>(covering_));
+            for (Rows::Row& row : rows) {
+                if (row.spans.x() == x) {
+                    row.spans.skip_to(end);
+                }
+            }
+        }
+    }
+
+  private:
+    std::vector<const Rgba16*> covering_;
+};
+
+// Pixels front to back into one stretch.
+void lay(std::span<const Rgba16* const> parts, std::span<RgbaF> to) {
+    from_16_bits({parts.front(), to.size()}, to);
+    for (const Rgba16* behind : parts.subspan(1)) {
+        over(to, std::span(behind, to.size()));
+    }
+}
+
+Window merge_face(const Layers<SpanWindow>& layers) {
+    const Rect& rect = layers.rect;
+    Window merged{.face = layers.face, .rect = rect, .pixels = Image<RgbaF>(rect.width(), rect.height())};
+    Rows rows(layers);
+    Sweep sweep;
+    for (int y = rect.y0; y < rect.y1; ++y) {
+        const std::span<RgbaF> to = merged.pixels.row(y - rect.y0);
+        sweep(rows.at(y), [&](int x, int length, std::span<const Rgba16* const> parts) {
+            lay(parts, to.subspan(static_cast<std::size_t>(x - rect.x0), static_cast<std::size_t>(length)));
+        });
+    }
+    return merged;
+}
+
+Window merge_face(const Layers<Window>& layers) {
+    const Rect& rect = layers.rect;
+    Window merged{.face = layers.face, .rect = rect, .pixels = Image<RgbaF>(rect.width(), rect.height())};
+    for (const Window* behind : layers.windows) {
+        const auto x = static_cast<std::size_t>(behind->rect.x0 - rect.x0);
+        const auto width = static_cast<std::size_t>(behind->rect.width());
+        for (int y = 0; y < behind->rect.height(); ++y) {
+            over(merged.pixels.row(y + behind->rect.y0 - rect.y0).subspan(x, width), behind->pixels.row(y));
         }
     }
     return merged;
@@ -35,32 +145,82 @@ Image<RgbaF> merge_face(int face, const Rect& rect, std::span<const AnyWindow> w
 template <class AnyWindow>
 std::vector<Window> merge(std::span<const AnyWindow> windows) {
     std::vector<Window> merged;
-    for (const AnyWindow& window : windows) {
-        if (window.rect.empty()) {
-            continue;
-        }
-        const auto found = std::find_if(merged.begin(), merged.end(),
-                                        [&](const Window& other) { return other.face == window.face; });
-        if (found == merged.end()) {
-            merged.push_back({.face = window.face, .rect = window.rect});
-        } else {
-            found->rect = bounding(found->rect, window.rect);
-        }
-    }
-    for (Window& window : merged) {
-        window.pixels = merge_face(window.face, window.rect, windows);
+    for (const Layers<AnyWindow>& layers : by_face(windows)) {
+        merged.push_back(merge_face(layers));
     }
     return merged;
 }
 
-}  // namespace
-
-std::vector<Window> merge_front_to_back(std::span<const WindowView16> windows) {
-    return merge(windows);
+void merge_coded_face(const Layers<SpanWindow>& layers, SpanWriter& writer) {
+    Rows rows(layers);
+    Sweep sweep;
+    std::vector<RgbaF> sum(static_cast<std::size_t>(layers.rect.width()));
+    for (int y = layers.rect.y0; y < layers.rect.y1; ++y) {
+        std::vector<Rows::Row>& row = rows.at(y);
+        if (row.size() == 1) {
+            writer.copy_row(row.front().bytes);
+            continue;
+        }
+        writer.begin_row();
+        sweep(row, [&](int x, int length, std::span<const Rgba16* const> parts) {
+            const std::span<Rgba16> to = writer.put(x, length);
+            if (parts.size() == 1) {
+                std::copy_n(parts.front(), length, to.begin());
+            } else {
+                const auto pixels = std::span(sum).first(to.size());
+                lay(parts, pixels);
+                to_16_bits(pixels, to);
+            }
+        });
+    }
 }
+
+}  // namespace
 
 std::vector<Window> merge_front_to_back(std::span<const Window> windows) {
     return merge(windows);
+}
+
+std::vector<Window> merge_front_to_back(std::span<const SpanWindow> windows) {
+    return merge(windows);
+}
+
+CodedWindows merge_coded(std::span<const SpanWindow> windows) {
+    const auto faces = by_face(windows);
+    std::size_t bound = 0;
+    for (const auto& layers : faces) {
+        bound += spans_bound(layers.rect);
+    }
+    CodedWindows merged{.windows = {}, .bytes = base::Buffer(bound)};
+    std::size_t used = 0;
+    for (const auto& layers : faces) {
+        const auto room = std::span(merged.bytes).subspan(used);
+        SpanWriter writer(room);
+        merge_coded_face(layers, writer);
+        merged.windows.push_back(
+            {.face = layers.face, .rect = layers.rect, .bytes = room.first(writer.written())});
+        used += writer.written();
+    }
+    merged.bytes.resize(used);
+    return merged;
+}
+
+CodedWindows encode(std::span<const Window> windows) {
+    std::size_t bound = 0;
+    for (const Window& window : windows) {
+        bound += spans_bound(window.rect);
+    }
+    CodedWindows coded{.windows = {}, .bytes = base::Buffer(bound)};
+    std::size_t used = 0;
+    for (const Window& window : windows) {
+        const SpanWindow spans = encode_spans(window, std::span(coded.bytes).subspan(used));
+        if (!spans.rect.empty()) {
+            coded.windows.push_back(spans);
+            used += spans.bytes.size();
+        }
+    }
+    coded.bytes.resize(used);
+    return coded;
 }
 
 }  // namespace shearwater::image

@@ -64,8 +64,9 @@ struct SliceMap {
 
 struct Factorisation {
     static constexpr int max_faces = 6;
-    static constexpr int max_side = 16384;                           // pixels of a face's side
-    static constexpr std::int64_t max_area = std::int64_t{1} << 27;  // pixels of all faces
+    static constexpr int max_side = 16384;  // pixels of a face's side
+    // Pixels of all faces: as many as travel in 2^30 bytes, with what their rows take besides.
+    static constexpr std::int64_t max_area = (std::int64_t{1} << 27) - (std::int64_t{1} << 17);
 
     Projection projection = Projection::perspective;
     Lattice lattice;

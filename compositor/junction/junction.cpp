@@ -55,7 +55,6 @@ Effects Junction::handle(const wire::NetEvent& event, wire::Time now) {
 
 Effects Junction::handle(MergeDone done) {
     Effects effects;
-    memory_ = done.memory;
     member_.tell_parent(std::move(done.windows), effects.net);
     return effects;
 }

@@ -13,7 +13,7 @@
 
 namespace shearwater::junction {
 
-// The one job a junction has: node::merge, carried out away from the network's thread.
+// The one job a junction has: node::merge_coded, away from the network's thread if it takes long.
 struct Merge {
     node::MergeJob job;
 };
@@ -24,8 +24,7 @@ struct Memory {
 };
 struct MergeDone {
     std::uint64_t frame;
-    wire::Message windows;  // node::to_message of what came of it
-    Memory memory;
+    wire::Message windows;  // what came of it
 };
 
 struct Effects {
@@ -40,6 +39,7 @@ class Junction {
     Effects start();
     Effects handle(const wire::NetEvent& event, wire::Time now);
     Effects handle(MergeDone done);
+    void handle(const Memory& memory) { memory_ = memory; }
 
     const std::string& refusal() const { return member_.refusal(); }
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "common/image/over.h"
+#include "common/image/over_windows.h"
 #include "common/image/rle.h"
 #include "common/image/warp.h"
 #include "deploy/bench/in_process.h"
@@ -77,10 +78,12 @@ class Codecs {
             measure(flags_.seconds, [&] { image::from_16_bits(narrow, wide); }));
         add("over", 1, pixels.size(), measure(flags_.seconds, [&] { image::over(wide, pixels); }));
         add("over 16 bits", 1, pixels.size(), measure(flags_.seconds, [&] { image::over(wide, narrow); }));
-        const image::WindowView16 half{.face = window.face, .rect = window.rect, .pixels = narrow};
-        const std::array<image::WindowView16, 2> two{half, half};
-        add("merge two windows", 1, pixels.size(),
-            measure(flags_.seconds, [&] { (void)image::merge_front_to_back(std::span(two)); }));
+        const std::span one(&window, 1);
+        add("window to spans", 1, pixels.size(), measure(flags_.seconds, [&] { (void)image::encode(one); }));
+        const image::CodedWindows coded = image::encode(one);
+        const std::array two{coded.windows.front(), coded.windows.front()};
+        add("merge two windows", 1, 2 * pixels.size(),
+            measure(flags_.seconds, [&] { (void)image::merge_coded(two); }));
     }
 
     void time_warp(const Frame& frame, const view::Rgb& background, base::Workers& workers) {

@@ -20,6 +20,18 @@ using wire::Parsed;
 // For the reader to find the goodbye that came before a connection broke under the writer.
 constexpr std::chrono::milliseconds after_broken_write{1000};
 
+// What is left of the parts when so many bytes of them are gone.
+std::span<asio::const_buffer> after(std::span<asio::const_buffer> parts, std::size_t gone) {
+    while (!parts.empty() && gone >= parts.front().size()) {
+        gone -= parts.front().size();
+        parts = parts.subspan(1);
+    }
+    if (!parts.empty()) {
+        parts.front() += gone;
+    }
+    return parts;
+}
+
 void rethrow(std::exception_ptr exception) {
     if (exception) {
         std::rethrow_exception(exception);
@@ -184,10 +196,10 @@ Awaitable<void> Connection::read_side(std::shared_ptr<Connection> self) {
 Awaitable<void> Connection::write_side(std::shared_ptr<Connection> self) {
     boost::system::error_code ignored;
     while (self->phase_ != Phase::over && !self->broken_) {
-        const std::optional<Outgoing> next = self->queue_.pop();
-        if (next) {
+        const std::vector<Outgoing> batch = self->queue_.pop();
+        if (!batch.empty()) {
             self->writing_ = true;
-            co_await self->write(*next);
+            co_await self->write(batch);
             self->writing_ = false;
         } else if (self->phase_ == Phase::closing) {
             // The reader goes on until the peer has seen the goodbye and closes: closing here, with
@@ -200,13 +212,17 @@ Awaitable<void> Connection::write_side(std::shared_ptr<Connection> self) {
     }
 }
 
-Awaitable<bool> Connection::write(const Outgoing& outgoing) {
+Awaitable<bool> Connection::write(std::span<const Outgoing> batch) {
     spoke_ = owner_ ? owner_->clock.now() : spoke_;
-    const std::size_t payload_size = outgoing.payload ? outgoing.payload->size() : 0;
-    std::array<asio::const_buffer, 2> left{
-        asio::buffer(outgoing.head),
-        asio::const_buffer(outgoing.payload ? outgoing.payload->data() : nullptr, payload_size)};
-    while (asio::buffer_size(left) > 0) {
+    std::vector<asio::const_buffer> parts;
+    for (const Outgoing& outgoing : batch) {
+        parts.push_back(asio::buffer(outgoing.head));
+        if (outgoing.payload) {
+            parts.emplace_back(outgoing.payload->data(), outgoing.payload->size());
+        }
+    }
+    std::span<asio::const_buffer> left = parts;
+    while (!left.empty()) {
         const auto [error, written] =
             co_await socket_.async_write_some(left, asio::as_tuple(asio::use_awaitable));
         if (error) {
@@ -215,9 +231,7 @@ Awaitable<bool> Connection::write(const Outgoing& outgoing) {
             write_broke_ = owner_ ? owner_->clock.now() : write_broke_;
             co_return false;
         }
-        const std::size_t of_head = std::min(written, left[0].size());
-        left[0] += of_head;
-        left[1] += written - of_head;
+        left = after(left, written);
         if (owner_) {
             owner_->bytes_sent += written;
             spoke_ = owner_->clock.now();

@@ -4,6 +4,7 @@
 //   opening --handshake--> up --goodbye, fault--> closing --drained, deadline--> over
 //      \-----------------------fault----------------^
 
+#include <array>
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/generic/stream_protocol.hpp>
 #include <boost/asio/io_context.hpp>
@@ -98,10 +99,11 @@ class Connection : public std::enable_shared_from_this<Connection> {
     Awaitable<wire::Parsed<T>> expect();
     wire::Parsed<wire::Header> accept_header(std::span<const std::byte, wire::header_bytes> bytes,
                                              std::optional<std::uint16_t> expected) const;
-    // `size` bytes, allocated as they arrive.
-    Awaitable<wire::Parsed<std::vector<std::byte>>> read_bytes(std::uint64_t size);
+    // `size` bytes, taking up memory as they arrive.
+    Awaitable<wire::Parsed<base::Buffer>> read_bytes(std::uint64_t size);
     Awaitable<bool> read_into(std::span<std::byte> to);
-    Awaitable<bool> write(const Outgoing& outgoing);
+    std::size_t take_ahead(std::span<std::byte> to);
+    Awaitable<bool> write(std::span<const Outgoing> batch);
 
     void queue(const wire::Message& message);
     void finish(const wire::Fault& fault);
@@ -115,6 +117,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
     Socket socket_;
     boost::asio::steady_timer wake_;  // for the writer: cancelled when there is something to do
     SendQueue queue_;
+
+    std::array<std::byte, 16384> ahead_room_;
+    std::span<const std::byte> ahead_;  // what came behind what was asked for last
 
     Phase phase_ = Phase::opening;
     bool dialled_ = false;

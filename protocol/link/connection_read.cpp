@@ -34,7 +34,7 @@ Fault told_by(const pb::Goodbye& goodbye) {
 }
 
 // A peer's length, within its limit, may still be more than there is memory for.
-bool grow(std::vector<std::byte>& bytes, std::size_t size) {
+bool grow(base::Buffer& bytes, std::size_t size) {
     try {
         bytes.reserve(size);
         bytes.resize(size);
@@ -213,7 +213,7 @@ Awaitable<Parsed<Message>> Connection::read_message(std::optional<std::uint16_t>
     if (!header) {
         co_return header.error();
     }
-    const Parsed<std::vector<std::byte>> bytes = co_await read_bytes(header->body);
+    const Parsed<base::Buffer> bytes = co_await read_bytes(header->body);
     if (!bytes) {
         co_return bytes.error();
     }
@@ -227,18 +227,19 @@ Awaitable<Parsed<Message>> Connection::read_message(std::optional<std::uint16_t>
     }
     Message message{std::move(*body), nullptr};
     if (header->payload > 0) {
-        Parsed<std::vector<std::byte>> payload = co_await read_bytes(header->payload);
+        Parsed<base::Buffer> payload = co_await read_bytes(header->payload);
         if (!payload) {
             co_return payload.error();
         }
-        message.payload = std::make_shared<const std::vector<std::byte>>(std::move(*payload));
+        message.payload = std::make_shared<const base::Buffer>(std::move(*payload));
     }
     co_return message;
 }
 
-Awaitable<Parsed<std::vector<std::byte>>> Connection::read_bytes(std::uint64_t size) {
-    constexpr std::size_t first_step = std::size_t{1} << 20;
-    std::vector<std::byte> bytes;
+Awaitable<Parsed<base::Buffer>> Connection::read_bytes(std::uint64_t size) {
+    // Memory of a fresh buffer is only addresses until something arrives for it.
+    constexpr std::size_t first_step = std::size_t{64} << 20;
+    base::Buffer bytes;
     while (bytes.size() < size) {
         const std::size_t arrived = bytes.size();
         const std::size_t step = std::min<std::uint64_t>(size - arrived, std::max(first_step, arrived));
@@ -252,10 +253,22 @@ Awaitable<Parsed<std::vector<std::byte>>> Connection::read_bytes(std::uint64_t s
     co_return bytes;
 }
 
+std::size_t Connection::take_ahead(std::span<std::byte> to) {
+    const std::span<const std::byte> taken = ahead_.first(std::min(to.size(), ahead_.size()));
+    std::ranges::copy(taken, to.begin());
+    ahead_ = ahead_.subspan(taken.size());
+    return taken.size();
+}
+
+// Straight to where it belongs, and what comes behind it into the room for that: a small message is one
+// read, and several may be.
 Awaitable<bool> Connection::read_into(std::span<std::byte> to) {
+    to = to.subspan(take_ahead(to));
     while (!to.empty()) {
-        const auto [error, size] = co_await socket_.async_read_some(asio::buffer(to.data(), to.size()),
-                                                                    asio::as_tuple(asio::use_awaitable));
+        const std::array<asio::mutable_buffer, 2> room{asio::buffer(to.data(), to.size()),
+                                                       asio::buffer(ahead_room_)};
+        const auto [error, size] =
+            co_await socket_.async_read_some(room, asio::as_tuple(asio::use_awaitable));
         if (error || phase_ == Phase::closing || phase_ == Phase::over) {
             broken_ = broken_ || error.failed();
             if (error && error != asio::error::eof && broken_text_.empty()) {
@@ -263,7 +276,9 @@ Awaitable<bool> Connection::read_into(std::span<std::byte> to) {
             }
             co_return false;
         }
-        to = to.subspan(size);
+        const std::size_t here = std::min(size, to.size());
+        ahead_ = std::span(ahead_room_).first(size - here);
+        to = to.subspan(here);
         owner_->bytes_received += size;
         heard_ = owner_->clock.now();
     }

@@ -30,14 +30,21 @@ void SendQueue::push_last(const wire::Message& message, std::uint16_t version) {
     append(encoded(message, version));
 }
 
-std::optional<Outgoing> SendQueue::pop() {
-    if (waiting_.empty()) {
-        return std::nullopt;
+std::vector<Outgoing> SendQueue::pop() {
+    constexpr std::size_t most_messages = 16;
+    constexpr std::size_t small = std::size_t{1} << 16;  // bytes
+    std::vector<Outgoing> batch;
+    std::size_t large = 0;
+    while (!waiting_.empty() && batch.size() < most_messages) {
+        large += waiting_.front().size() > small ? 1U : 0U;
+        if (large > 1) {
+            break;
+        }
+        bytes_ -= waiting_.front().size();
+        batch.push_back(std::move(waiting_.front()));
+        waiting_.pop_front();
     }
-    Outgoing first = std::move(waiting_.front());
-    waiting_.pop_front();
-    bytes_ -= first.size();
-    return first;
+    return batch;
 }
 
 void SendQueue::clear() {

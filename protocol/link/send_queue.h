@@ -2,7 +2,7 @@
 // What waits to be written to one link, encoded and bounded.
 
 #include <deque>
-#include <optional>
+#include <vector>
 
 #include "protocol/link/limits.h"
 #include "protocol/wire/header.h"
@@ -28,7 +28,8 @@ class SendQueue {
     bool push(const wire::Message& message, std::uint16_t version);
     // The same for a link's last message, whatever waits.
     void push_last(const wire::Message& message, std::uint16_t version);
-    std::optional<Outgoing> pop();
+    // The first messages, of which one may be large: they leave together. Empty when nothing waits.
+    std::vector<Outgoing> pop();
     void clear();
 
     bool empty() const { return waiting_.empty(); }

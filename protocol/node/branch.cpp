@@ -66,7 +66,7 @@ void Branch::begin(const view::Factorisation& factorisation, const wire::pb::Ren
     Pending pending{.factorisation = factorisation, .parts = {}, .missing = {}, .waiting = {}, .since = now};
     const wire::Message message = wire::message(render);
     for (std::size_t i = 0; i < children_.size(); ++i) {
-        pending.parts.push_back({.box = children_[i].spec.box, .windows = {}, .present = false});
+        pending.parts.push_back({.box = children_[i].spec.box});
         if (children_[i].link) {
             pending.waiting.insert(i);
             effects.push_back(wire::Send{*children_[i].link, message});
@@ -191,7 +191,7 @@ void Branch::on_windows(const Child& child, const wire::Message& message, std::v
         return;  // cancelled, or given up before
     }
     Pending& pending = found->second;
-    const auto windows = wire::windows_from(message, pending.factorisation);
+    auto windows = wire::windows_from(message, pending.factorisation);
     if (!windows) {
         fault(*child.link, windows.error(), effects);
         return;
@@ -205,8 +205,11 @@ void Branch::on_windows(const Child& child, const wire::Message& message, std::v
         pending.missing.push_back({static_cast<int>(entry.place()), *box});
     }
     pending.waiting.erase(index);
-    pending.parts[index].windows = message;
-    pending.parts[index].present = true;
+    MergeJob::Part& part = pending.parts[index];
+    part.windows = *std::move(windows);
+    part.payload = message.payload;
+    part.stats = body.stats();
+    part.present = true;
     finish(body.frame());
 }
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <chrono>
 
-#include "common/base/check.h"
-
 namespace shearwater::node {
 namespace {
 
@@ -19,31 +17,70 @@ void add_stats(wire::pb::LeafStats& sum, const wire::pb::LeafStats& part) {
     sum.set_window_bytes(sum.window_bytes() + part.window_bytes());
 }
 
-}  // namespace
+using Clock = std::chrono::steady_clock;
 
-Merged merge(const MergeJob& job) {
-    const auto begin = std::chrono::steady_clock::now();
+void add_composite(wire::pb::LeafStats& stats, Clock::time_point since) {
+    const std::chrono::duration<double> spent = Clock::now() - since;
+    stats.set_composite_seconds(stats.composite_seconds() + spent.count());
+}
+
+// All that the children gave, front to back.
+struct Given {
+    std::vector<image::SpanWindow> windows;
+    wire::pb::LeafStats stats;
+};
+Given front_to_back(const MergeJob& job) {
     std::vector<volume::Box> boxes;
     for (const MergeJob::Part& part : job.parts) {
         boxes.push_back(part.box);
     }
-    Merged merged{.frame = job.frame, .windows = {}, .missing = job.missing, .stats = {}};
-    std::vector<image::WindowView16> views;
+    Given given;
     for (const int index : view::visibility_order(job.factorisation, boxes)) {
         const MergeJob::Part& part = job.parts[static_cast<std::size_t>(index)];
         if (!part.present) {
             continue;
         }
-        const auto windows = wire::windows_from(part.windows, job.factorisation);
-        base::check(windows.has_value(), "windows were validated on arrival");
-        views.insert(views.end(), windows->begin(), windows->end());
-        add_stats(merged.stats, std::get<wire::pb::Windows>(part.windows.body).stats());
-        merged.stats.set_window_bytes(merged.stats.window_bytes() + part.windows.payload_size());
+        given.windows.insert(given.windows.end(), part.windows.begin(), part.windows.end());
+        add_stats(given.stats, part.stats);
     }
-    merged.windows = image::merge_front_to_back(views);
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-    merged.stats.set_composite_seconds(merged.stats.composite_seconds() + spent.count());
+    given.stats.set_window_bytes(given.stats.window_bytes() + job.bytes());
+    return given;
+}
+
+wire::Message message_of(std::uint64_t frame, image::CodedWindows windows,
+                         const std::vector<Missing>& missing, const wire::pb::LeafStats& stats) {
+    wire::Message message = wire::windows_message(frame, std::move(windows));
+    auto& body = std::get<wire::pb::Windows>(message.body);
+    *body.mutable_stats() = stats;
+    put(missing, *body.mutable_missing());
+    return message;
+}
+
+}  // namespace
+
+std::size_t MergeJob::bytes() const {
+    std::size_t sum = 0;
+    for (const Part& part : parts) {
+        sum += part.payload ? part.payload->size() : 0;
+    }
+    return sum;
+}
+
+Merged merge(const MergeJob& job) {
+    const auto begin = Clock::now();
+    const Given given = front_to_back(job);
+    Merged merged{.frame = job.frame, .windows = {}, .missing = job.missing, .stats = given.stats};
+    merged.windows = image::merge_front_to_back(given.windows);
+    add_composite(merged.stats, begin);
     return merged;
+}
+
+wire::Message merge_coded(const MergeJob& job) {
+    const auto begin = Clock::now();
+    Given given = front_to_back(job);
+    image::CodedWindows merged = image::merge_coded(given.windows);
+    add_composite(given.stats, begin);
+    return message_of(job.frame, std::move(merged), job.missing, given.stats);
 }
 
 void put(const std::vector<Missing>& missing,
@@ -55,12 +92,12 @@ void put(const std::vector<Missing>& missing,
     }
 }
 
-wire::Message to_message(const Merged& merged) {
-    wire::Message message = wire::windows_message(merged.frame, merged.windows);
-    auto& body = std::get<wire::pb::Windows>(message.body);
-    *body.mutable_stats() = merged.stats;
-    put(merged.missing, *body.mutable_missing());
-    return message;
+wire::Message to_message(const Merged& drawn) {
+    const auto begin = Clock::now();
+    image::CodedWindows coded = image::encode(drawn.windows);
+    wire::pb::LeafStats stats = drawn.stats;
+    add_composite(stats, begin);
+    return message_of(drawn.frame, std::move(coded), drawn.missing, stats);
 }
 
 }  // namespace shearwater::node

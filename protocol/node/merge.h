@@ -2,7 +2,6 @@
 // One frame's windows from a junction's children, and the merging of them: the work a junction does on
 // its pool.
 
-#include <optional>
 #include <vector>
 
 #include "common/image/image.h"
@@ -22,15 +21,19 @@ struct Missing {
 
 struct MergeJob {
     struct Part {
-        volume::Box box;        // the child's
-        wire::Message windows;  // a pb::Windows; without one where the child gave nothing
-        bool present = false;
+        volume::Box box;                         // the child's
+        std::vector<image::SpanWindow> windows;  // viewing the payload
+        wire::Payload payload;
+        wire::pb::LeafStats stats;
+        bool present = false;  // otherwise the child gave nothing
     };
 
     std::uint64_t frame = 0;
     view::Factorisation factorisation;
     std::vector<Part> parts;
     std::vector<Missing> missing;
+
+    std::size_t bytes() const;  // that the parts came in
 };
 
 struct Merged {
@@ -40,13 +43,15 @@ struct Merged {
     wire::pb::LeafStats stats;  // of all below, and this merge
 };
 
-// Merges in visibility order, front to back. The parts' windows have been through windows_from.
+// Merges in visibility order, front to back: at the head into pixels to warp, at a junction into what it
+// sends up.
 Merged merge(const MergeJob& job);
+wire::Message merge_coded(const MergeJob& job);
 
 // Names the missing parts in a message.
 void put(const std::vector<Missing>& missing, google::protobuf::RepeatedPtrField<wire::pb::Missing>& entries);
 
-// What a junction sends up, or a leaf: windows, what they lack and what they cost.
-wire::Message to_message(const Merged& merged);
+// What a leaf sends up: windows, what they lack and what they cost, coding them included.
+wire::Message to_message(const Merged& drawn);
 
 }  // namespace shearwater::node

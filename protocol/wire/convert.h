@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "common/image/image.h"
-#include "common/image/over.h"
+#include "common/image/over_windows.h"
 #include "common/view/camera.h"
 #include "common/view/factorisation.h"
 #include "common/view/transfer_function.h"
@@ -45,11 +45,11 @@ struct View {
 pb::SetView to_wire(const View& view);
 Parsed<View> view_from(const pb::SetView& view);
 
-// Rendered windows and the message they travel in. `message` takes the pixels to 16 bits.
-Message windows_message(std::uint64_t frame, std::span<const image::Window> windows);
-// The windows of a message, viewing its payload: faces and rectangles are those of the factorisation,
-// each face at most once, and the payload holds exactly their pixels.
-Parsed<std::vector<image::WindowView16>> windows_from(const Message& message,
-                                                      const view::Factorisation& factorisation);
+// Windows and the message they travel in: heads in the body, spans in the payload.
+Message windows_message(std::uint64_t frame, image::CodedWindows windows);
+// The windows of a message, viewing its payload: faces and rectangles are those of the factorisation, each
+// face at most once, spans keep to their rectangles, and the payload holds nothing else.
+Parsed<std::vector<image::SpanWindow>> windows_from(const Message& message,
+                                                    const view::Factorisation& factorisation);
 
 }  // namespace shearwater::wire

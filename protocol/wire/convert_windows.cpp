@@ -1,5 +1,6 @@
-// Rendered windows: heads in the body, pixels in the payload.
+// Windows: heads in the body, spans in the payload.
 
+#include <array>
 #include <bit>
 
 #include "common/base/check.h"
@@ -8,12 +9,6 @@
 
 namespace shearwater::wire {
 namespace {
-
-using image::Rgba16;
-
-// The payload's 16-bit channels are little-endian; here they are read and written in place.
-static_assert(std::endian::native == std::endian::little);
-static_assert(sizeof(Rgba16) == 8 && alignof(Rgba16) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__);
 
 Parsed<view::Rect> rect_from(const pb::Rect& rect, const view::Face& face) {
     const view::Rect from{.x0 = rect.x0(), .y0 = rect.y0(), .x1 = rect.x1(), .y1 = rect.y1()};
@@ -34,46 +29,30 @@ pb::Rect to_wire(const view::Rect& rect) {
     return to;
 }
 
-Message windows_message(std::uint64_t frame, std::span<const image::Window> windows) {
+Message windows_message(std::uint64_t frame, image::CodedWindows windows) {
     pb::Windows body;
     body.set_frame(frame);
-    std::size_t pixels = 0;
-    for (const image::Window& window : windows) {
-        if (!window.rect.empty()) {
-            pb::WindowHead& head = *body.add_windows();
-            head.set_face(static_cast<std::uint32_t>(window.face));
-            *head.mutable_rect() = to_wire(window.rect);
-            pixels += static_cast<std::size_t>(window.rect.area());
-        }
+    for (const image::SpanWindow& window : windows.windows) {
+        pb::WindowHead& head = *body.add_windows();
+        head.set_face(static_cast<std::uint32_t>(window.face));
+        *head.mutable_rect() = to_wire(window.rect);
     }
-    std::vector<std::byte> payload(pixels * sizeof(Rgba16));
-    Rgba16* to = reinterpret_cast<Rgba16*>(payload.data());
-    for (const image::Window& window : windows) {
-        if (!window.rect.empty()) {
-            const std::span<const image::RgbaF> from = window.pixels.pixels();
-            base::check(from.size() == static_cast<std::size_t>(window.rect.area()),
-                        "a window holds its rectangle");
-            image::to_16_bits(from, {to, from.size()});
-            to += from.size();
-        }
-    }
-    return message(std::move(body), std::move(payload));
+    return message(std::move(body), std::move(windows.bytes));
 }
 
-Parsed<std::vector<image::WindowView16>> windows_from(const Message& message,
-                                                      const view::Factorisation& factorisation) {
+Parsed<std::vector<image::SpanWindow>> windows_from(const Message& message,
+                                                    const view::Factorisation& factorisation) {
     const auto* body = std::get_if<pb::Windows>(&message.body);
     base::check(body != nullptr, "windows are taken from a Windows message");
     base::check(factorisation.faces.size() <= view::Factorisation::max_faces, "the factorisation is valid");
-
-    const auto* pixels = message.payload ? reinterpret_cast<const Rgba16*>(message.payload->data()) : nullptr;
-    base::check(std::bit_cast<std::uintptr_t>(pixels) % alignof(Rgba16) == 0,
+    std::span<const std::byte> left;
+    if (message.payload) {
+        left = *message.payload;
+    }
+    base::check(std::bit_cast<std::uintptr_t>(left.data()) % alignof(image::Rgba16) == 0,
                 "a payload is aligned for pixels");
-    const std::uint64_t available = message.payload_size() / sizeof(Rgba16);
-
-    std::vector<image::WindowView16> windows;
+    std::vector<image::SpanWindow> windows;
     std::array<bool, view::Factorisation::max_faces> seen{};
-    std::uint64_t used = 0;
     for (const pb::WindowHead& head : body->windows()) {
         if (head.face() >= factorisation.faces.size() || seen[head.face()]) {
             return invalid("windows.face: no such face, or one that was there before");
@@ -83,16 +62,14 @@ Parsed<std::vector<image::WindowView16>> windows_from(const Message& message,
         if (!rect) {
             return rect.error();
         }
-        const auto area = static_cast<std::uint64_t>(rect->area());
-        if (area > available - used) {
-            return invalid("windows: the payload is shorter than its windows");
+        const auto size = image::check_spans(left, *rect);
+        if (!size) {
+            return invalid("windows: " + size.error().detail);
         }
-        windows.push_back({.face = static_cast<int>(head.face()),
-                           .rect = *rect,
-                           .pixels = {pixels + used, static_cast<std::size_t>(area)}});
-        used += area;
+        windows.push_back({.face = static_cast<int>(head.face()), .rect = *rect, .bytes = left.first(*size)});
+        left = left.subspan(*size);
     }
-    if (used * sizeof(Rgba16) != message.payload_size()) {
+    if (!left.empty()) {
         return invalid("windows: the payload is longer than its windows");
     }
     return windows;

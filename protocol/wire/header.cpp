@@ -59,7 +59,7 @@ constexpr Type type<pb::Render>{37, {256 * kib, 0}};
 template <>
 constexpr Type type<pb::Cancel>{38, {mib, 0}};
 template <>
-constexpr Type type<pb::Windows>{39, {mib, 1024 * mib}};  // 8 bytes for each of Factorisation::max_area
+constexpr Type type<pb::Windows>{39, {mib, 1024 * mib}};  // spans of Factorisation::max_area pixels
 
 template <>
 constexpr Type type<pb::CubeDescription>{64, {mib, 0}};
@@ -153,7 +153,7 @@ Parsed<Header> parse_header(std::span<const std::byte, header_bytes> bytes) {
                         .type = load<std::uint16_t>(p + 2),
                         .body = load<std::uint32_t>(p + 4),
                         .payload = load<std::uint64_t>(p + 8)};
-    if (header.version < oldest_version || header.version > protocol_version) {
+    if (header.version < handshake_version || header.version > protocol_version) {
         return Fault{pb::REASON_BAD_VERSION,
                      "a message of protocol version " + std::to_string(header.version)};
     }

@@ -4,10 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <variant>
-#include <vector>
 
+#include "common/base/buffer.h"
 #include "common/base/result.h"
 #include "protocol/wire/shearwater.pb.h"
 
@@ -21,7 +22,7 @@ using Body = std::variant<pb::Challenge, pb::Hello, pb::Welcome, pb::Goodbye, pb
                           pb::CubeDescription, pb::TreeState, pb::SetView, pb::Frame, pb::FrameShown>;
 
 // Shared, never changed: a junction passes on what it received without a copy.
-using Payload = std::shared_ptr<const std::vector<std::byte>>;
+using Payload = std::shared_ptr<const base::Buffer>;
 
 struct Message {
     Body body;
@@ -31,12 +32,16 @@ struct Message {
 };
 
 template <class T>
-Message message(T body, std::vector<std::byte> payload = {}) {
+Message message(T body, base::Buffer payload = {}) {
     Message m{std::move(body), nullptr};
     if (!payload.empty()) {
-        m.payload = std::make_shared<const std::vector<std::byte>>(std::move(payload));
+        m.payload = std::make_shared<const base::Buffer>(std::move(payload));
     }
     return m;
+}
+template <class T>
+Message message(T body, std::span<const std::byte> payload) {
+    return message(std::move(body), base::Buffer(payload.begin(), payload.end()));
 }
 
 // The body's name as the schema spells it.

@@ -11,7 +11,8 @@ Parsed<std::vector<std::byte>> inflated(std::span<const std::byte> bytes, std::s
     auto unpacked = image::inflate(bytes, limit);
     if (!unpacked) {
         const bool bomb = unpacked.error().code == base::Code::too_large;
-        return Fault{bomb ? pb::REASON_TOO_LARGE : pb::REASON_MALFORMED, "frame: " + unpacked.error().message()};
+        return Fault{bomb ? pb::REASON_TOO_LARGE : pb::REASON_MALFORMED,
+                     "frame: " + unpacked.error().message()};
     }
     return *std::move(unpacked);
 }
@@ -22,13 +23,13 @@ Message frame_message(pb::Frame frame, const image::Image<image::Rgba8>& picture
     frame.set_width(static_cast<std::uint32_t>(picture.width()));
     frame.set_height(static_cast<std::uint32_t>(picture.height()));
     frame.set_encoding(pb::ENCODING_RLE);
-    std::vector<std::byte> coded(image::rle_bound(picture.pixels().size()));
+    base::Buffer coded(image::rle_bound(picture.pixels().size()));
     coded.resize(image::encode_rle(picture.pixels(), coded));
     if (deflate) {
-        std::vector<std::byte> smaller = image::deflate(coded);
+        const std::vector<std::byte> smaller = image::deflate(coded);
         if (smaller.size() < coded.size()) {
             frame.set_encoding(pb::ENCODING_RLE_DEFLATE);
-            coded = std::move(smaller);
+            return message(std::move(frame), std::span(smaller));
         }
     }
     return message(std::move(frame), std::move(coded));

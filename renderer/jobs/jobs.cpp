@@ -134,10 +134,13 @@ void Jobs::draw(const leaf::Draw& job, const std::stop_token& stop) {
     drawn.stats.set_bricks_empty(stats.bricks_empty);
     drawn.stats.set_bricks_rendered(stats.bricks_rendered);
     tell_(leaf::Drawn{job.job, node::to_message(drawn)});
-    tell_memory();
+    if (begin - memory_told_ > std::chrono::milliseconds(500)) {
+        tell_memory();
+    }
 }
 
 void Jobs::tell_memory() {
+    memory_told_ = std::chrono::steady_clock::now();
     const base::MemoryUse use = base::memory_use();
     tell_(leaf::Memory{use.resident, use.peak});
 }

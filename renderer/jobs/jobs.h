@@ -3,6 +3,7 @@
 // that shares its loops with the workers.
 
 #include <boost/asio/thread_pool.hpp>
+#include <chrono>
 #include <functional>
 #include <map>
 #include <memory>
@@ -42,6 +43,7 @@ class Jobs {
     std::function<void(leaf::JobEvent)> tell_;
     base::Workers workers_;
     std::optional<shear::BrickVolume> volume_;  // touched by the jobs' thread only
+    std::chrono::steady_clock::time_point memory_told_;
     std::mutex mutex_;
     std::map<leaf::Job, std::stop_source> running_;
     std::map<leaf::Job, std::shared_ptr<LinkSource>> link_sources_;

@@ -63,7 +63,7 @@ void Service::read_voxels(const head::ReadVoxels& job) {
     voxels.set_place(job.need.place());
     voxels.set_request(job.need.request());
     *voxels.mutable_box() = job.need.box();
-    std::vector<std::byte> payload;
+    base::Buffer payload;
     const auto box = wire::box_from(job.need.box());
     if (!box || box->voxels() > most_voxels) {
         voxels.set_error("more voxels at a time than are sent");

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "common/image/over.h"
+#include "common/image/over_windows.h"
 #include "common/image/rle.h"
 #include "common/image/silhouette.h"
 #include "common/image/warp.h"
@@ -75,15 +76,17 @@ void from_levels(benchmark::State& state) {
     count_pixels(state, megapixel);
 }
 
-// Windows of one face, each 1024 x 1024, the next half a window to the right.
+// Windows of one face, each 1024 x 1024, the next half a window to the right, as a junction merges them.
 void merge_windows(benchmark::State& state) {
     const auto pixels = random_levels(megapixel);
-    std::vector<WindowView16> windows;
+    std::vector<Window> windows;
     for (int n = 0; n < state.range(0); ++n) {
-        windows.push_back({0, {512 * n, 0, 512 * n + 1024, 1024}, pixels});
+        windows.push_back({.face = 0, .rect = {512 * n, 0, 512 * n + 1024, 1024}, .pixels = {1024, 1024}});
+        from_16_bits(pixels, windows.back().pixels.pixels());
     }
+    const CodedWindows coded = encode(windows);
     for (auto _ : state) {
-        benchmark::DoNotOptimize(merge_front_to_back(windows));
+        benchmark::DoNotOptimize(merge_coded(coded.windows));
     }
     count_pixels(state, megapixel * windows.size());
 }

@@ -92,54 +92,5 @@ TEST(SixteenBits, RoundToTheNearestLevelAndBack) {
     }
 }
 
-Window window_of(int face, const Rect& rect, const RgbaF& pixel) {
-    Window window{.face = face, .rect = rect, .pixels = Image<RgbaF>(rect.width(), rect.height())};
-    std::fill(window.pixels.pixels().begin(), window.pixels.pixels().end(), pixel);
-    return window;
-}
-
-TEST(Merge, PutsEachWindowWhereItBelongs) {
-    const RgbaF red{0.5F, 0, 0, 0.5F}, green{0, 0.5F, 0, 0.5F};
-    std::vector<Window> windows;
-    windows.push_back(window_of(1, {2, 3, 5, 6}, red));
-    windows.push_back(window_of(0, {-4, 0, -1, 2}, green));
-    windows.push_back(window_of(1, {4, 4, 9, 5}, green));
-    windows.push_back(window_of(1, {0, 0, 0, 0}, red));
-    const auto merged = merge_front_to_back(windows);
-    ASSERT_EQ(merged.size(), 2U);
-    EXPECT_EQ(merged[0].face, 1);
-    EXPECT_EQ(merged[0].rect, (Rect{2, 3, 9, 6}));
-    expect_near(merged[0].pixels.at(0, 0), red, 0);
-    expect_near(merged[0].pixels.at(2, 1), {0.5F, 0.25F, 0, 0.75F}, 1e-7F);  // red over green
-    expect_near(merged[0].pixels.at(6, 1), green, 0);
-    expect_near(merged[0].pixels.at(6, 0), {}, 0);
-    EXPECT_EQ(merged[1].face, 0);
-    EXPECT_EQ(merged[1].rect, (Rect{-4, 0, -1, 2}));
-}
-
-TEST(Merge, OfTravelledWindowsIsTheSame) {
-    std::mt19937 random(4);
-    std::vector<Window> windows;
-    std::vector<std::vector<Rgba16>> travelled;
-    std::vector<WindowView16> views;
-    for (int n = 0; n < 9; ++n) {
-        const int x = static_cast<int>(random() % 20), y = static_cast<int>(random() % 20);
-        windows.push_back(window_of(n % 2, {x, y, x + 1 + n, y + 10 - n}, random_pixel(random)));
-        travelled.emplace_back(windows.back().pixels.pixels().size());
-        to_16_bits(windows.back().pixels.pixels(), travelled.back());
-        views.push_back({windows.back().face, windows.back().rect, travelled.back()});
-    }
-    const auto a = merge_front_to_back(windows);
-    const auto b = merge_front_to_back(views);
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t w = 0; w < a.size(); ++w) {
-        ASSERT_EQ(a[w].rect, b[w].rect);
-        for (std::size_t i = 0; i < a[w].pixels.pixels().size(); ++i) {
-            expect_near(a[w].pixels.pixels()[i], b[w].pixels.pixels()[i], 9.0F / 65535);
-        }
-    }
-    EXPECT_TRUE(merge_front_to_back(std::span<const Window>{}).empty());
-}
-
 }  // namespace
 }  // namespace shearwater::image

@@ -72,12 +72,14 @@ TEST_F(Handshake, RolesAreKnown) {
 }
 
 TEST_F(Handshake, VersionsMeet) {
-    challenge.set_version_min(2);
-    challenge.set_version_max(3);
-    EXPECT_EQ(answer(challenge, secret, pb::ROLE_CHILD, "", d).error().reason, pb::REASON_BAD_VERSION);
-    hello.set_version_min(2);
-    hello.set_version_max(3);
-    EXPECT_EQ(admit(hello, a, secret).error().reason, pb::REASON_BAD_VERSION);
+    for (const std::uint32_t theirs : {wire::oldest_version - 1, wire::protocol_version + 1}) {
+        challenge.set_version_min(theirs);
+        challenge.set_version_max(theirs);
+        EXPECT_EQ(answer(challenge, secret, pb::ROLE_CHILD, "", d).error().reason, pb::REASON_BAD_VERSION);
+        hello.set_version_min(theirs);
+        hello.set_version_max(theirs);
+        EXPECT_EQ(admit(hello, a, secret).error().reason, pb::REASON_BAD_VERSION);
+    }
 }
 
 }  // namespace

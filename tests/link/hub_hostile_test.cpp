@@ -137,12 +137,17 @@ TEST_F(Hostile, GarbageBeforeTheHello) {
 
 TEST_F(Hostile, GarbageOnAnOpenLink) {
     expect_end(text("hello? is anybody there, at all?"), wire::pb::REASON_BAD_MAGIC);
-    expect_end(header(2, number_of<wire::pb::Cancel>(), 0, 0), wire::pb::REASON_BAD_VERSION);
-    expect_end(header(1, 7, 0, 0), wire::pb::REASON_BAD_TYPE);
-    expect_end(header(1, number_of<wire::pb::Hello>(), 0, 0), wire::pb::REASON_BAD_TYPE);
-    expect_end(header(1, number_of<wire::pb::Cancel>(), 0xFFFFFFFFU, 0), wire::pb::REASON_TOO_LARGE);
-    expect_end(header(1, number_of<wire::pb::Windows>(), 0, ~std::uint64_t{0}), wire::pb::REASON_TOO_LARGE);
-    std::vector<std::byte> broken = header(1, number_of<wire::pb::Cancel>(), 3, 0);
+    expect_end(header(wire::protocol_version + 1, number_of<wire::pb::Cancel>(), 0, 0),
+               wire::pb::REASON_BAD_VERSION);
+    expect_end(header(wire::handshake_version, number_of<wire::pb::Cancel>(), 0, 0),
+               wire::pb::REASON_BAD_VERSION);
+    expect_end(header(wire::protocol_version, 7, 0, 0), wire::pb::REASON_BAD_TYPE);
+    expect_end(header(wire::protocol_version, number_of<wire::pb::Hello>(), 0, 0), wire::pb::REASON_BAD_TYPE);
+    expect_end(header(wire::protocol_version, number_of<wire::pb::Cancel>(), 0xFFFFFFFFU, 0),
+               wire::pb::REASON_TOO_LARGE);
+    expect_end(header(wire::protocol_version, number_of<wire::pb::Windows>(), 0, ~std::uint64_t{0}),
+               wire::pb::REASON_TOO_LARGE);
+    std::vector<std::byte> broken = header(wire::protocol_version, number_of<wire::pb::Cancel>(), 3, 0);
     broken.insert(broken.end(), 3, std::byte{0xFF});
     expect_end(broken, wire::pb::REASON_MALFORMED);
 }
@@ -150,7 +155,7 @@ TEST_F(Hostile, GarbageOnAnOpenLink) {
 TEST_F(Hostile, TheReasonReachesAPeerThatIsStillTalking) {
     Raw raw(io, address);
     ASSERT_TRUE(raw.shake_hands());
-    raw.write(header(1, number_of<wire::pb::Frame>(), 0, std::uint64_t{1} << 40));
+    raw.write(header(wire::protocol_version, number_of<wire::pb::Frame>(), 0, std::uint64_t{1} << 40));
     raw.write(std::vector<std::byte>(20 << 20));
     EXPECT_EQ(raw.next<wire::pb::Goodbye>().value().reason(), wire::pb::REASON_TOO_LARGE);
 }
@@ -161,7 +166,8 @@ TEST_F(Hostile, AClaimedLengthTakesNoMemoryUntilItsBytesArrive) {
     for (int i = 0; i < 20; ++i) {
         Raw& raw = claimers.emplace_back(io, address);
         ASSERT_TRUE(raw.shake_hands());
-        ASSERT_TRUE(raw.write(header(1, number_of<wire::pb::Windows>(), 0, std::uint64_t{1} << 30)));
+        ASSERT_TRUE(raw.write(
+            header(wire::protocol_version, number_of<wire::pb::Windows>(), 0, std::uint64_t{1} << 30)));
         ASSERT_TRUE(raw.write(std::vector<std::byte>(1000)));
     }
     run_for(io, 100ms);
@@ -309,7 +315,7 @@ TEST_F(HostileListener, RefusesWithItsOwnReason) {
     Raw raw = dialled();
     wire::pb::Goodbye goodbye;
     goodbye.set_reason(wire::pb::REASON_TOO_MANY_LINKS);
-    raw.write(wire::message(goodbye));
+    raw.write(bytes_of(wire::message(goodbye), wire::handshake_version));
     expect_down(wire::pb::REASON_TOO_MANY_LINKS);
 }
 

@@ -63,6 +63,23 @@ TEST_F(Pair, LargePayloadsArriveWhole) {
     EXPECT_GT(a.hub.bytes_received(), std::uint64_t{64} << 20);
 }
 
+// Small ones are read several at a time, and what follows a payload with its end.
+TEST_F(Pair, MessagesOfAllSizesArriveAsTheyWereSent) {
+    connect();
+    std::vector<wire::Message> sent;
+    for (std::uint64_t i = 0; i < 300; ++i) {
+        const std::size_t size = i % 7 == 0 ? 70000 + i : i % 3 == 0 ? 0 : 16384 - 150 + i;
+        sent.push_back(size == 0 ? cancel(i) : windows(i, size, static_cast<std::uint8_t>(i)));
+        b.send(b_link, sent.back());
+    }
+    ASSERT_TRUE(run_until(io, [&] { return a.received.size() == sent.size(); }));
+    for (std::size_t i = 0; i < sent.size(); ++i) {
+        const wire::Message& got = a.received[i].message;
+        EXPECT_EQ(bytes_of(got), bytes_of(sent[i])) << i;
+    }
+    EXPECT_EQ(a.hub.bytes_received(), b.hub.bytes_sent());
+}
+
 TEST_F(Pair, OnlyTheNewestViewWaits) {
     connect();
     b.send(b_link, windows(0, 32 << 20));  // keeps the writer busy

@@ -14,14 +14,16 @@ wire::Message pong(std::uint64_t token) {
 // The queue's messages as they would be written, header and body.
 std::vector<std::vector<std::byte>> drained(SendQueue& queue) {
     std::vector<std::vector<std::byte>> heads;
-    while (auto outgoing = queue.pop()) {
-        heads.push_back(outgoing->head);
+    while (!queue.empty()) {
+        for (const Outgoing& outgoing : queue.pop()) {
+            heads.push_back(outgoing.head);
+        }
     }
     return heads;
 }
 
 std::vector<std::byte> head(const wire::Message& message) {
-    return wire::encode_head(message);
+    return wire::encode_head(message, 1);
 }
 
 TEST(SendQueue, KeepsOrderAndCountsBytes) {
@@ -40,7 +42,22 @@ TEST(SendQueue, SharesAPayload) {
     SendQueue queue{Limits{}};
     const wire::Message message = windows(1, 1000);
     EXPECT_TRUE(queue.push(message, 1));
-    EXPECT_EQ(queue.pop()->payload.get(), message.payload.get());
+    EXPECT_EQ(queue.pop().at(0).payload.get(), message.payload.get());
+}
+
+TEST(SendQueue, GivesSmallMessagesTogetherAndLargeOnesOneByOne) {
+    SendQueue queue{Limits{}};
+    constexpr std::size_t large = 100000;
+    for (std::uint64_t i = 0; i < 40; ++i) {
+        EXPECT_TRUE(queue.push(i == 2 || i == 4 ? windows(i, large) : cancel(i), 1));
+    }
+    EXPECT_EQ(queue.pop().size(), 4U) << "up to the second large one";
+    EXPECT_EQ(queue.pop().size(), 16U);
+    EXPECT_EQ(queue.messages(), 20U);
+    EXPECT_EQ(queue.bytes(), 20 * head(cancel(30)).size());
+    EXPECT_EQ(queue.pop().size(), 16U);
+    EXPECT_EQ(queue.pop().size(), 4U);
+    EXPECT_TRUE(queue.pop().empty());
 }
 
 TEST(SendQueue, OfViewsAndPongsOnlyTheNewestWaits) {

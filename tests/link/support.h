@@ -42,7 +42,7 @@ inline wire::Message set_view(std::uint64_t revision) {
 inline wire::Message windows(std::uint64_t frame, std::size_t payload, std::uint8_t seed = 1) {
     wire::pb::Windows body;
     body.set_frame(frame);
-    std::vector<std::byte> bytes(payload);
+    base::Buffer bytes(payload);
     std::uint32_t state = seed;
     for (std::byte& b : bytes) {
         state = state * 1664525U + 1013904223U;
@@ -51,12 +51,23 @@ inline wire::Message windows(std::uint64_t frame, std::size_t payload, std::uint
     return wire::message(std::move(body), std::move(bytes));
 }
 
-inline std::vector<std::byte> bytes_of(const wire::Message& message) {
-    std::vector<std::byte> bytes = wire::encode_head(message);
+// Handshakes keep the form of their own version.
+inline std::uint16_t version_of(const wire::Message& message) {
+    const bool opens = std::holds_alternative<wire::pb::Challenge>(message.body) ||
+                       std::holds_alternative<wire::pb::Hello>(message.body) ||
+                       std::holds_alternative<wire::pb::Welcome>(message.body);
+    return opens ? wire::handshake_version : wire::protocol_version;
+}
+
+inline std::vector<std::byte> bytes_of(const wire::Message& message, std::uint16_t version) {
+    std::vector<std::byte> bytes = wire::encode_head(message, version);
     if (message.payload) {
         bytes.insert(bytes.end(), message.payload->begin(), message.payload->end());
     }
     return bytes;
+}
+inline std::vector<std::byte> bytes_of(const wire::Message& message) {
+    return bytes_of(message, version_of(message));
 }
 
 // A hub that writes down what happens. Ticks are counted only.
@@ -156,12 +167,12 @@ class Raw {
         }
         const auto header = wire::parse_header(head);
         std::vector<std::byte> body(header.value().body);
-        std::vector<std::byte> payload(header->payload);
+        base::Buffer payload(header->payload);
         if (!read(body) || !read(payload)) {
             return std::nullopt;
         }
         wire::Message message{wire::parse_body(*header, body).value(), nullptr};
-        message.payload = std::make_shared<const std::vector<std::byte>>(std::move(payload));
+        message.payload = std::make_shared<const base::Buffer>(std::move(payload));
         return message;
     }
     // The next message of a kind; others, pings say, are passed over.

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "common/image/over.h"
+#include "common/image/over_windows.h"
 #include "common/image/warp.h"
 #include "tests/support/reference_raycaster.h"
 #include "tests/support/reference_views.h"
@@ -14,7 +14,6 @@ namespace shearwater::test {
 namespace {
 
 using image::Image;
-using image::Rgba16;
 using image::Rgba8;
 using image::Window;
 using view::Factorisation;
@@ -88,15 +87,13 @@ class Tree {
         for (const Tree& child : children_) {
             boxes.push_back(child.box_);
         }
-        std::vector<std::vector<Rgba16>> payloads;
-        std::vector<image::WindowView16> arrived;
+        std::vector<image::CodedWindows> payloads;
+        std::vector<image::SpanWindow> arrived;
         for (const int child : view::visibility_order(f, boxes)) {
-            for (const Window& window :
-                 children_[static_cast<std::size_t>(child)].render(f, tf, workers, samples)) {
-                payloads.emplace_back(window.pixels.pixels().size());
-                image::to_16_bits(window.pixels.pixels(), payloads.back());
-                arrived.push_back({window.face, window.rect, payloads.back()});
-            }
+            payloads.push_back(
+                image::encode(children_[static_cast<std::size_t>(child)].render(f, tf, workers, samples)));
+            const auto& windows = payloads.back().windows;
+            arrived.insert(arrived.end(), windows.begin(), windows.end());
         }
         return image::merge_front_to_back(arrived);
     }

@@ -178,8 +178,7 @@ struct Simulation::Compositor final : Simulation::Daemon {
         sim.fabric_.perform(number, std::move(effects.net));
         for (junction::Merge& merge : effects.merges) {
             sim.fabric_.later(number, [this, merge = std::move(merge)] {
-                perform(junction.handle(
-                    junction::MergeDone{merge.job.frame, node::to_message(node::merge(merge.job)), {}}));
+                perform(junction.handle(junction::MergeDone{merge.job.frame, node::merge_coded(merge.job)}));
             });
         }
     }

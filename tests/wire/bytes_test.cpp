@@ -129,13 +129,29 @@ TEST(Bytes, OfEveryMessageAreReadBack) {
     }
 }
 
-// Little-endian, whatever the machine: half of red, a quarter of green, all of blue, opaque.
-TEST(Bytes, OfPixels) {
-    image::Window window{.face = 0, .rect = {0, 0, 1, 1}, .pixels = image::Image<image::RgbaF>(1, 1)};
-    window.pixels.at(0, 0) = {0.5F, 0.25F, 1.0F, 1.0F};
-    const Message message = windows_message(3, {&window, 1});
-    EXPECT_EQ(hex(*message.payload), "00800040ffffffff");
-    EXPECT_EQ(hex(encode_head(message)).substr(40), "08031206120418022002");
+// Of version 2, little-endian, whatever the machine. Of three rows the middle one is empty; the others begin
+// with half of red, a quarter of green, all of blue, opaque, and the last has, far to the right, a level of
+// alpha.
+TEST(Bytes, OfSpans) {
+    image::Window window{.face = 0, .rect = {256, 7, 300, 10}, .pixels = image::Image<image::RgbaF>(44, 3)};
+    window.pixels.at(2, 0) = {0.5F, 0.25F, 1.0F, 1.0F};
+    window.pixels.at(2, 2) = {0.5F, 0.25F, 1.0F, 1.0F};
+    window.pixels.at(40, 2) = {0, 0, 0, 1.0F / 65535};
+    const Message message = windows_message(3, image::encode({&window, 1}));
+    EXPECT_EQ(hex(*message.payload),
+              "0100"
+              "0201"
+              "0100"
+              "00800040ffffffff"
+              "0000"
+              "0200"
+              "0201"
+              "0100"
+              "00800040ffffffff"
+              "2801"
+              "0100"
+              "0000000000000100");
+    EXPECT_EQ(hex(encode_head(message)).substr(40), "0803120c120a088404100e18d2042014");
 }
 
 }  // namespace

@@ -130,37 +130,52 @@ TEST(Fuzz, BodiesOfRandomBytes) {
     }
 }
 
+image::Window random_window(Random& random, int face, const view::Rect& rect) {
+    image::Window window{
+        .face = face, .rect = rect, .pixels = image::Image<image::RgbaF>(rect.width(), rect.height())};
+    for (image::RgbaF& pixel : window.pixels.pixels()) {
+        if (below(random, 3) == 0) {
+            pixel = {0.25F, 0.5F, 0, static_cast<float>(below(random, 1000)) / 1000};
+        }
+    }
+    return window;
+}
+
+// Windows that were good, with bytes changed or a rectangle of another's. What is taken is merged both ways,
+// which reads every span and must give the same.
 TEST(Fuzz, WindowsOfAnyShape) {
     Random random(4);
-    const view::Factorisation f = factorisation();
+    view::Factorisation f = factorisation();
+    f.faces[0].width = 60;
     std::size_t taken = 0;
     for (int i = 0; i < 60000; ++i) {
-        pb::Windows body;
-        std::size_t pixels = 0;
-        for (std::size_t n = below(random, 4); n > 0; --n) {
-            pb::WindowHead& head = *body.add_windows();
-            head.set_face(static_cast<std::uint32_t>(below(random, 3)));
-            const auto edge = [&] { return static_cast<int>(below(random, 8)) - 1; };
-            const view::Rect rect{edge(), edge(), edge(), edge()};
-            *head.mutable_rect() = to_wire(rect);
-            pixels += static_cast<std::size_t>(rect.area());
+        std::vector<image::Window> windows;
+        windows.push_back(random_window(random, 0, {3, 1, 4 + static_cast<int>(below(random, 50)), 4}));
+        windows.push_back(random_window(random, 1, {0, 0, 3, 2}));
+        image::CodedWindows coded = image::encode(windows);
+        std::vector<std::byte> bytes(coded.bytes.begin(), coded.bytes.end());
+        if (below(random, 4) != 0) {
+            mutate(bytes, random);
         }
-        const std::size_t wrong = below(random, 4) == 0 ? below(random, 20) : 0;
-        const Message sent = message(std::move(body), std::vector<std::byte>(pixels * 8 + wrong));
-        if (const auto windows = windows_from(sent, f)) {
-            ++taken;
-            std::size_t sum = 0;
-            for (const auto& window : *windows) {
-                EXPECT_EQ(window.pixels.size(), static_cast<std::size_t>(window.rect.area()));
-                EXPECT_EQ(view::intersection(window.rect,
-                                             {0, 0, f.faces[static_cast<std::size_t>(window.face)].width,
-                                              f.faces[static_cast<std::size_t>(window.face)].height}),
-                          window.rect);
-                for (const image::Rgba16& pixel : window.pixels) {
-                    sum += pixel.r;
-                }
+        Message sent = windows_message(1, std::move(coded));
+        sent.payload = std::make_shared<const base::Buffer>(bytes.begin(), bytes.end());
+        for (pb::WindowHead& head : *std::get<pb::Windows>(sent.body).mutable_windows()) {
+            if (below(random, 8) == 0) {
+                const auto edge = [&] { return static_cast<int>(below(random, 60)) - 1; };
+                *head.mutable_rect() = to_wire(view::Rect{edge(), edge() / 10, edge(), edge() / 10});
             }
-            EXPECT_EQ(sum, 0U);
+        }
+        if (const auto got = windows_from(sent, f)) {
+            ++taken;
+            for (const image::SpanWindow& window : *got) {
+                const view::Face& face = f.faces[static_cast<std::size_t>(window.face)];
+                EXPECT_EQ(view::intersection(window.rect, {0, 0, face.width, face.height}), window.rect);
+            }
+            std::vector<image::SpanWindow> twice = *got;
+            twice.insert(twice.end(), got->begin(), got->end());
+            const image::CodedWindows merged = image::merge_coded(twice);
+            EXPECT_EQ(image::merge_front_to_back(merged.windows).size(), got->size());
+            EXPECT_TRUE(windows_from(windows_message(1, image::merge_coded(twice)), f));
         }
     }
     EXPECT_GT(taken, 1000U);
