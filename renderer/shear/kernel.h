@@ -31,6 +31,16 @@ struct Slice {
     const float* lengths;
 };
 
+// Memory that will be wanted soon, to be fetched meanwhile: so many pieces of so many lines of the cache.
+struct Ahead {
+    const char* first = nullptr;
+    std::ptrdiff_t row_stride = 0, plane_stride = 0;  // bytes
+    int lines = 0, rows = 0, planes = 0;
+
+    int count() const { return lines * rows * planes; }
+};
+inline constexpr int cache_line = 64;
+
 // Slices that follow one another front to back.
 template <class Code>
 struct Slab {
@@ -39,7 +49,7 @@ struct Slab {
     std::int64_t fast_first, slow_first;  // its first voxel
     std::int64_t fast_cells, slow_cells;  // a row holds one voxel more, and there is one row more
     std::ptrdiff_t stride;                // from row to row
-    std::ptrdiff_t ahead;  // from a plane to that of the slab that may be next, to be fetched in advance
+    Ahead ahead;
     int fast_pixel, slow_pixel;  // the tile's first pixel
     bool blanks;                 // whether code 0, which is no value, occurs
     bool between_nodes;          // whether extinction is interpolated, or that of the nearest node will do
@@ -57,7 +67,7 @@ struct Rays {
 };
 inline constexpr int ray_padding = 32;
 // A tile's pixels along the fast and along the slow axis.
-inline constexpr int widest_tile = 64;
+inline constexpr int widest_tile = 128;
 inline constexpr int tallest_tile = 32;
 
 // A ray with less light left than this is done: well below half a level of 255.

@@ -153,7 +153,7 @@ HWY_INLINE std::uint64_t composite_row(const Slab<Code>& slab, const Slice<Code>
 // The pixels of a chunk, from i0 to i1 at most.
 template <bool blanks, class Code>
 std::uint64_t composite_chunk(const Slab<Code>& slab, const view::Rect& chunk, const OpacityTable& table,
-                              const Rays& rays) {
+                              const Rays& rays, Fetching& fetching) {
     struct Span {
         int i0, i1;
     };
@@ -169,6 +169,7 @@ std::uint64_t composite_chunk(const Slab<Code>& slab, const view::Rect& chunk, c
     std::array<float, widest_tile + ray_padding> a_before;
     std::uint64_t taken = 0;
     for (int j = chunk.y0; j < chunk.y1; ++j) {
+        fetching.step();
         std::copy_n(rays.a + j * rays.stride, a_before.size(), a_before.begin());
         for (std::size_t k = 0; k < static_cast<std::size_t>(slab.count); ++k) {
             const Slice<Code>& slice = slab.slices[k];
@@ -192,10 +193,11 @@ std::uint64_t composite_gathering(const Slab<Code>& slab, const OpacityTable& ta
     const double room = (most_voxels - 3) / scale;
     const int most = room >= widest_tile ? widest_tile : std::max(1, static_cast<int>(room));
     const view::Rect pixels = pixels_of(slab);
+    Fetching fetching(slab.ahead, (pixels.width() + most - 1) / most * pixels.height());
     std::uint64_t taken = 0;
     for (int i = pixels.x0; i < pixels.x1; i += most) {
         taken += composite_chunk<blanks>(slab, {i, pixels.y0, std::min(i + most, pixels.x1), pixels.y1},
-                                         table, rays);
+                                         table, rays, fetching);
     }
     return taken;
 }

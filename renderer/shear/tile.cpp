@@ -238,28 +238,13 @@ void Tile<Code>::render_part(Slices slices, std::span<const std::int64_t> number
         return;
     }
     const VoxelRegion region = region_of(slices, numbers);
-    VoxelRegion more = region;
-    if (whole) {
-        // As far as the rays go sideways until the slices of the next layer.
-        const std::int64_t axis_lo = volume_.box().lo[static_cast<std::size_t>(plan_.face().axis)];
-        const std::int64_t axis_hi = volume_.box().hi[static_cast<std::size_t>(plan_.face().axis)];
-        more.lo[2] = std::max(region.lo[2] / (2 * micro_edge) * (2 * micro_edge), axis_lo);
-        more.hi[2] = std::max(region.hi[2], std::min(more.lo[2] + 2 * micro_edge - 1, axis_hi));
-        const std::array<int, 2> axes{plan_.fast_axis(), plan_.slow_axis()};
-        for (std::size_t n = 0; n < 2; ++n) {
-            const std::int64_t lo = volume_.box().lo[static_cast<std::size_t>(axes[n])];
-            const std::int64_t hi = volume_.box().hi[static_cast<std::size_t>(axes[n])];
-            more.lo[n] = std::max(region.lo[n] - micro_edge, lo);
-            more.hi[n] = std::min(region.hi[n] + micro_edge, hi);
-        }
-    }
-    const auto place = voxels_.find(region, more);
+    const auto place = voxels_.find(region, whole ? with_block(region) : region);
     Slab<Code> slab{.fast_first = region.lo[0],
                     .slow_first = region.lo[1],
                     .fast_cells = region.hi[0] - region.lo[0],
                     .slow_cells = region.hi[1] - region.lo[1],
                     .stride = place.row_stride,
-                    .ahead = place.turned ? 0 : ahead_of(numbers.front(), place),
+                    .ahead = whole ? voxels_.ahead(behind(region)) : Ahead{},
                     .fast_pixel = rect_.x0,
                     .slow_pixel = rect_.y0,
                     .blanks = content == Content::with_blanks,
@@ -282,18 +267,67 @@ void Tile<Code>::render_part(Slices slices, std::span<const std::int64_t> number
     }
 }
 
-// How far the voxels lie that the tile's middle needs a layer of micro-bricks later.
+// What the tile's pixels need of the planes lo to hi across the principal axis, both included.
 template <class Code>
-std::ptrdiff_t Tile<Code>::ahead_of(std::int64_t k, const typename TileVoxels<Code>::Place& place) const {
-    const double w = plan_.factorisation().slice_place(k);
-    const SliceMap here = plan_.slice_map(w);
-    const SliceMap there = plan_.slice_map(w + static_cast<double>(plan_.face().sign * micro_edge));
-    const double i = 0.5 * (rect_.x0 + rect_.x1);
-    const double j = 0.5 * (rect_.y0 + rect_.y1);
-    const double fast = there.u_offset + there.u_scale * i - (here.u_offset + here.u_scale * i);
-    const double slow = there.v_offset + there.v_scale * j - (here.v_offset + here.v_scale * j);
-    return plan_.face().sign * micro_edge * place.plane_stride +
-           static_cast<std::ptrdiff_t>(slow) * place.row_stride + static_cast<std::ptrdiff_t>(fast);
+VoxelRegion Tile<Code>::between_planes(std::int64_t lo, std::int64_t hi) const {
+    const std::array<int, 2> axes{plan_.fast_axis(), plan_.slow_axis()};
+    std::array<std::pair<double, double>, 2> ends;
+    ends.fill({1e300, -1e300});
+    for (const std::int64_t w : {lo, hi}) {
+        const SliceMap map = plan_.slice_map(static_cast<double>(w));
+        const auto add = [](std::pair<double, double>& to, const std::pair<double, double>& more) {
+            to = {std::min(to.first, more.first), std::max(to.second, more.second)};
+        };
+        add(ends[0], ends_of(map.u_offset, map.u_scale, rect_.x0, rect_.x1));
+        add(ends[1], ends_of(map.v_offset, map.v_scale, rect_.y0, rect_.y1));
+    }
+    VoxelRegion region{{0, 0, lo}, {0, 0, hi}};
+    for (std::size_t n = 0; n < 2; ++n) {
+        const auto first = static_cast<double>(volume_.box().lo[static_cast<std::size_t>(axes[n])]);
+        const auto last = static_cast<double>(volume_.box().hi[static_cast<std::size_t>(axes[n])]);
+        region.lo[n] = static_cast<std::int64_t>(std::clamp(std::floor(ends[n].first), first, last));
+        region.hi[n] = static_cast<std::int64_t>(std::clamp(std::floor(ends[n].second) + 1, first, last));
+    }
+    return region;
+}
+
+// The region and what the tile needs of the planes about it, up to whole blocks of them: what is turned
+// together.
+template <class Code>
+VoxelRegion Tile<Code>::with_block(const VoxelRegion& region) const {
+    constexpr std::int64_t block = 2 * micro_edge;
+    const auto axis = static_cast<std::size_t>(plan_.face().axis);
+    const std::int64_t lo = std::max(region.lo[2] / block * block, volume_.box().lo[axis]);
+    const std::int64_t hi = std::max(region.hi[2], std::min(lo + block - 1, volume_.box().hi[axis]));
+    VoxelRegion more = between_planes(lo, hi);
+    for (std::size_t n = 0; n < 2; ++n) {
+        more.lo[n] = std::min(more.lo[n], region.lo[n]);
+        more.hi[n] = std::max(more.hi[n], region.hi[n]);
+    }
+    return more;
+}
+
+// What the tile will need and may fetch meanwhile: of the planes behind a region's, as many again. Where
+// voxels are adjacent along the principal axis, a line of the cache holds those of more planes: then a part
+// of what the tile needs a line later.
+template <class Code>
+VoxelRegion Tile<Code>::behind(const VoxelRegion& region) const {
+    constexpr std::int64_t planes_of_line = cache_line / static_cast<std::int64_t>(sizeof(Code));
+    constexpr std::int64_t parts = planes_of_line / micro_edge;
+    const auto axis = static_cast<std::size_t>(plan_.face().axis);
+    const bool adjacent = axis == 0;
+    const std::int64_t away = plan_.face().sign * (adjacent ? planes_of_line : micro_edge);
+    const auto plane = [&](std::int64_t w) {
+        return std::clamp(w + away, volume_.box().lo[axis], volume_.box().hi[axis]);
+    };
+    VoxelRegion next = between_planes(plane(region.lo[2]), plane(region.hi[2]));
+    if (adjacent) {
+        const std::int64_t part = region.lo[2] / micro_edge % parts;
+        const std::int64_t first = next.lo[1], rows = next.hi[1] - first + 1;
+        next.lo[1] = first + rows * part / parts;
+        next.hi[1] = first + rows * (part + 1) / parts - 1;
+    }
+    return next;
 }
 
 template <class Code>

@@ -54,7 +54,9 @@ class Tile {
     void render_slices(Slices slices, std::span<const std::int64_t> numbers);
     void render_part(Slices slices, std::span<const std::int64_t> numbers, Content content, bool whole);
     VoxelRegion region_of(Slices slices, std::span<const std::int64_t> numbers) const;
-    std::ptrdiff_t ahead_of(std::int64_t k, const typename TileVoxels<Code>::Place& place) const;
+    VoxelRegion between_planes(std::int64_t lo, std::int64_t hi) const;
+    VoxelRegion with_block(const VoxelRegion& region) const;
+    VoxelRegion behind(const VoxelRegion& region) const;
     void note_met(const VoxelRegion& region);
     const float* lengths_on(std::int64_t k, const view::Rect& pixels, Plane& spare);
     bool opaque() const;

@@ -9,6 +9,7 @@
 
 #include "renderer/shear/brick_volume.h"
 #include "renderer/shear/face_plan.h"
+#include "renderer/shear/kernel.h"
 
 namespace shearwater::shear {
 
@@ -30,10 +31,11 @@ class TileVoxels {
     struct Place {
         const Code* first;
         std::ptrdiff_t row_stride, plane_stride;
-        bool turned;  // into a copy that the next call may overwrite
     };
     // `more` holds the region and what may be asked for next: where voxels have to be turned, all of it is.
     Place find(const VoxelRegion& region, const VoxelRegion& more);
+    // What of the volume a region will take to find.
+    Ahead ahead(const VoxelRegion& region) const;
 
   private:
     void turn(const VoxelRegion& region);

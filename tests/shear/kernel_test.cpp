@@ -124,7 +124,7 @@ struct Trial {
                 .fast_cells = cells,
                 .slow_cells = rows,
                 .stride = stride,
-                .ahead = 0,
+                .ahead = {},
                 .fast_pixel = 100,
                 .slow_pixel = 60,
                 .blanks = blanks,

@@ -1,0 +1,157 @@
+// What kernel_permute-inl.h begins with: from voxels to the codes at the pixels of a chunk, interpolated.
+#if defined(SHEARWATER_SHEAR_KERNEL_PERMUTE_CODES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SHEARWATER_SHEAR_KERNEL_PERMUTE_CODES_INL_H
+#undef SHEARWATER_SHEAR_KERNEL_PERMUTE_CODES_INL_H
+#else
+#define SHEARWATER_SHEAR_KERNEL_PERMUTE_CODES_INL_H
+#endif
+
+#include "renderer/shear/kernel_common-inl.h"
+
+#if HWY_TARGET == HWY_AVX3_DL
+HWY_BEFORE_NAMESPACE();
+// The target has it, though Highway does not name it to the compiler.
+HWY_PUSH_ATTRIBUTES(HWY_TARGET_STR ",avx512vnni")
+namespace shearwater::shear::HWY_NAMESPACE {
+
+inline constexpr int permuted_pixels = 32;
+inline constexpr int permuted_voxels = 64;
+static_assert(cell_steps == 127, "both weights are signed bytes, and codes times it signed words");
+
+// Where eight pixels lie, in cell_steps from a voxel: what place_of gives, undivided.
+HWY_INLINE __m512i steps_of_eight(double offset, double scale, int pixel, std::int64_t first_voxel) {
+    const __m512d pixels = _mm512_add_pd(_mm512_set1_pd(pixel), _mm512_setr_pd(0, 1, 2, 3, 4, 5, 6, 7));
+    const __m512d at = _mm512_add_pd(_mm512_mul_pd(pixels, _mm512_set1_pd(scale)), _mm512_set1_pd(offset));
+    return _mm512_sub_epi64(_mm512_cvttpd_epi64(_mm512_add_pd(_mm512_mul_pd(at, _mm512_set1_pd(cell_steps)),
+                                                              _mm512_set1_pd(0.5))),
+                            _mm512_set1_epi64(first_voxel * cell_steps));
+}
+
+// For the pixels of a chunk: which are wanted on a slice, and which voxels of the 64 from `first` on each
+// lies between.
+struct Permutation {
+    __m512i left, right;  // indices into a row interpolated across
+    __m512i fraction;     // 15 bits
+    std::ptrdiff_t first;
+    std::uint32_t wanted;
+};
+
+// Words of two vectors of dwords, pixels 0 to 15 and 16 to 31, such that interleaving the bytes of two such
+// vectors, and again those of what is looked up by them, gives pixels in order: in each 16 bytes four
+// pixels of the first half, then four of the second.
+HWY_INLINE __m512i words_of_pixels(__m512i low, __m512i high, int word) {
+    alignas(64) static constexpr std::uint16_t pixels[permuted_pixels] = {
+        0, 1, 2,  3,  16, 17, 18, 19, 4,  5,  6,  7,  20, 21, 22, 23,
+        8, 9, 10, 11, 24, 25, 26, 27, 12, 13, 14, 15, 28, 29, 30, 31};
+    const __m512i index = _mm512_add_epi16(_mm512_slli_epi16(_mm512_load_si512(pixels), 1),
+                                           _mm512_set1_epi16(static_cast<short>(word)));
+    return _mm512_permutex2var_epi16(low, index, high);
+}
+
+HWY_INLINE Permutation permutation_of(const Slab<std::uint8_t>& slab, const Slice<std::uint8_t>& slice, int i,
+                                      int width) {
+    const int begin = std::max(slice.pixels.x0, i) - i;
+    const int count = std::min(slice.pixels.x1, i + width) - i - begin;
+    Permutation permutation;
+    permutation.wanted = 0;
+    if (count <= 0) {
+        return permutation;
+    }
+    const double from = along_row(slice, slab.fast_pixel + i + begin);
+    const double to = along_row(slice, slab.fast_pixel + i + begin + count - 1);
+    const auto first = std::clamp(static_cast<std::int64_t>(std::min(from, to)), slab.fast_first,
+                                  slab.fast_first + slab.fast_cells - 1);
+    // Pixels that are not wanted take some voxel or other.
+    const __m512i most = _mm512_set1_epi32((permuted_voxels - 2) * cell_steps);
+    const auto quarter = [&](int lane) HWY_ATTR {
+        return _mm512_cvtsepi64_epi32(
+            steps_of_eight(slice.fast_offset, slice.fast_scale, slab.fast_pixel + i + lane, first));
+    };
+    const auto half = [&](int lane) HWY_ATTR {
+        const __m512i steps = _mm512_inserti64x4(_mm512_castsi256_si512(quarter(lane)), quarter(lane + 8), 1);
+        const __m512i in_window = _mm512_min_epi32(_mm512_max_epi32(steps, _mm512_setzero_si512()), most);
+        // Divided by cell_steps: exact for what is this small.
+        const __m512i cell = _mm512_srli_epi32(_mm512_mullo_epi32(in_window, _mm512_set1_epi32(33027)), 22);
+        const __m512i step =
+            _mm512_sub_epi32(in_window, _mm512_mullo_epi32(cell, _mm512_set1_epi32(cell_steps)));
+        const __m512 fraction =
+            _mm512_mul_ps(_mm512_cvtepi32_ps(step), _mm512_set1_ps(32767.0F / cell_steps));
+        return _mm512_or_si512(_mm512_slli_epi32(cell, 16), _mm512_cvtps_epi32(fraction));
+    };
+    const __m512i low = half(0);
+    const __m512i high = half(16);
+    const __m512i cell = words_of_pixels(low, high, 1);
+    // Interleaving two rows of voxels within 16 bytes leaves each eight in one of two vectors by turns.
+    const auto index = [](__m512i voxel) HWY_ATTR {
+        const __m512i in_eight = _mm512_and_si512(voxel, _mm512_set1_epi16(7));
+        const __m512i lane =
+            _mm512_slli_epi16(_mm512_and_si512(_mm512_srli_epi16(voxel, 4), _mm512_set1_epi16(3)), 3);
+        const __m512i vector = _mm512_slli_epi16(_mm512_and_si512(voxel, _mm512_set1_epi16(8)), 2);
+        return _mm512_or_si512(in_eight, _mm512_or_si512(lane, vector));
+    };
+    permutation.left = index(cell);
+    permutation.right = index(_mm512_add_epi16(cell, _mm512_set1_epi16(1)));
+    permutation.fraction = words_of_pixels(low, high, 0);
+    permutation.first = first - slab.fast_first;
+    permutation.wanted = 0xffffffffU >> (permuted_pixels - count) << begin;
+    return permutation;
+}
+
+// For the rows of a slab: where they lie among a slice's rows of voxels.
+struct RowPlaces {
+    std::array<std::int64_t, tallest_tile + 8> offsets;   // of the row before, from the slice's first voxel
+    std::array<std::uint16_t, tallest_tile + 8> weights;  // of it and of the row behind, a byte each
+};
+
+HWY_INLINE void lay_rows(const Slab<std::uint8_t>& slab, const Slice<std::uint8_t>& slice,
+                         RowPlaces& places) {
+    for (int j = slice.pixels.y0; j < slice.pixels.y1; j += 8) {
+        const __m512i steps =
+            steps_of_eight(slice.slow_offset, slice.slow_scale, slab.slow_pixel + j, slab.slow_first);
+        // Divided by cell_steps, by way of a product that is exact for all that a double may hold of it.
+        // A row on the last row of voxels belongs to the last cell.
+        const __m512i cell = _mm512_min_epi64(
+            _mm512_cvttpd_epi64(_mm512_mul_pd(_mm512_add_pd(_mm512_cvtepi64_pd(steps), _mm512_set1_pd(0.5)),
+                                              _mm512_set1_pd(1.0 / cell_steps))),
+            _mm512_set1_epi64(slab.slow_cells - 1));
+        const __m512i step = _mm512_sub_epi64(steps, _mm512_mullo_epi64(cell, _mm512_set1_epi64(cell_steps)));
+        const __m512i weights = _mm512_or_si512(_mm512_sub_epi64(_mm512_set1_epi64(cell_steps), step),
+                                                _mm512_slli_epi64(step, 8));
+        const auto n = static_cast<std::size_t>(j);
+        _mm512_storeu_si512(&places.offsets[n], _mm512_mullo_epi64(cell, _mm512_set1_epi64(slab.stride)));
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(&places.weights[n]), _mm512_cvtepi64_epi16(weights));
+    }
+}
+
+// Codes in cell_steps at the pixels of one row.
+HWY_INLINE __m512i codes_along(const Slab<std::uint8_t>& slab, const Slice<std::uint8_t>& slice, int j,
+                               const RowPlaces& places, const Permutation& permutation) {
+    const auto row = static_cast<std::size_t>(j);
+    const __m512i weights = _mm512_set1_epi16(static_cast<short>(places.weights[row]));
+    const std::ptrdiff_t from = places.offsets[row] + permutation.first;
+    const std::ptrdiff_t stride = slab.stride;
+    __m512i low, high;
+    const auto across = [&](const std::uint8_t* voxels) HWY_ATTR {
+        const __m512i row0 = _mm512_loadu_si512(voxels + from);
+        const __m512i row1 = _mm512_loadu_si512(voxels + from + stride);
+        low = _mm512_maddubs_epi16(_mm512_unpacklo_epi8(row0, row1), weights);
+        high = _mm512_maddubs_epi16(_mm512_unpackhi_epi8(row0, row1), weights);
+    };
+    across(slice.voxels);
+    if (slice.next != nullptr) {
+        const __m512i low0 = low, high0 = high;
+        across(slice.next);
+        low = _mm512_avg_epu16(low, low0);
+        high = _mm512_avg_epu16(high, high0);
+    }
+    const __m512i left = _mm512_permutex2var_epi16(low, permutation.left, high);
+    const __m512i right = _mm512_permutex2var_epi16(low, permutation.right, high);
+    return _mm512_add_epi16(left, _mm512_mulhrs_epi16(_mm512_sub_epi16(right, left), permutation.fraction));
+}
+
+}  // namespace shearwater::shear::HWY_NAMESPACE
+HWY_POP_ATTRIBUTES
+HWY_AFTER_NAMESPACE();
+
+#endif
+#endif
