@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace shearwater::shear {
 
@@ -36,8 +37,9 @@ Stretch clipped(const Stretch& stretch, double start, double at, double slope, d
     if (slope == 0) {
         return stretch;
     }
-    const double to_first = start - at / slope;
-    const double to_last = start + (last - at) / slope;
+    const double planes_per_voxel = 1 / slope;
+    const double to_first = start - at * planes_per_voxel;
+    const double to_last = start + (last - at) * planes_per_voxel;
     return {std::max(stretch.from, std::min(to_first, to_last)),
             std::min(stretch.to, std::max(to_first, to_last))};
 }
@@ -92,17 +94,32 @@ SliceMap FacePlan::slice_map(double w) const {
 }
 
 void FacePlan::steps(int i, int j, std::span<float> out) const {
-    const auto step = [&](int at) {
-        return static_cast<float>(turned() ? factorisation_.step(face_, j, at)
-                                           : factorisation_.step(face_, at, j));
-    };
     if (!perspective()) {
-        std::fill(out.begin(), out.end(), step(i));
+        std::fill(out.begin(), out.end(), static_cast<float>(factorisation_.step(face_, i, j)));
         return;
     }
+    // As Factorisation::step.
+    const view::Vec3& spacing = factorisation_.lattice.spacing;
+    const auto square = [](double x) { return x * x; };
+    const double fast = spacing[fast_axis()];
+    const double rest = square(spacing[face_.axis]) + square(place_of(slow_axis(), j) * spacing[slow_axis()]);
+    const double pitch = factorisation_.slice_pitch();
+    const auto [origin, each] = line_of(fast_axis());
     for (std::size_t n = 0; n < out.size(); ++n) {
-        out[n] = step(i + static_cast<int>(n));
+        const double slope = origin + each * (i + static_cast<int>(n));
+        out[n] = static_cast<float>(pitch * std::sqrt(rest + square(slope * fast)));
     }
+}
+
+// A pixel's place along an in-plane axis, as Face counts it: origin + pitch * pixel.
+std::pair<double, double> FacePlan::line_of(int axis) const {
+    return axis == face_.u_axis() ? std::pair(face_.origin.x, face_.pitch.x)
+                                  : std::pair(face_.origin.y, face_.pitch.y);
+}
+
+double FacePlan::place_of(int axis, int pixel) const {
+    const auto [origin, pitch] = line_of(axis);
+    return origin + pitch * pixel;
 }
 
 const Rect& FacePlan::inside(std::int64_t k) const {
@@ -114,21 +131,19 @@ void FacePlan::shares(std::int64_t k, int i, int j, std::span<float> out) const 
         return static_cast<double>(last_voxel_[static_cast<std::size_t>(axis)]);
     };
     const double start = perspective() ? factorisation_.eye[face_.axis] : 0;
-    const auto clipped_along = [&](const Stretch& stretch, int axis, int pixel) {
-        const bool along_u = axis == face_.u_axis();
-        const double place =
-            along_u ? face_.origin.x + pixel * face_.pitch.x : face_.origin.y + pixel * face_.pitch.y;
-        const double at = perspective() ? factorisation_.eye[axis] : place;
-        const double slope =
-            perspective() ? place : factorisation_.direction[axis] / factorisation_.direction[face_.axis];
-        return clipped(stretch, start, at, slope, last(axis));
-    };
-    Stretch whole{0, last(face_.axis)};
+    Stretch row{0, last(face_.axis)};
     if (perspective()) {
-        (face_.sign > 0 ? whole.from : whole.to) =
-            face_.sign > 0 ? std::max(whole.from, start) : std::min(whole.to, start);
+        (face_.sign > 0 ? row.from : row.to) =
+            face_.sign > 0 ? std::max(row.from, start) : std::min(row.to, start);
     }
-    const Stretch row = clipped_along(whole, slow_axis(), j);
+    // How fast a ray moves sideways: in perspective that is its place, in parallel they all do alike.
+    const auto slope_of = [&](int axis, double place) {
+        return perspective() ? place : factorisation_.direction[axis] / factorisation_.direction[face_.axis];
+    };
+    const double slow_place = place_of(slow_axis(), j);
+    row = clipped(row, start, perspective() ? factorisation_.eye[slow_axis()] : slow_place,
+                  slope_of(slow_axis(), slow_place), last(slow_axis()));
+
     const double place = factorisation_.slice_place(k);
     const double half = factorisation_.slice_pitch() / 2;
     const auto in_row = [j](const Rect& rect) {
@@ -136,12 +151,19 @@ void FacePlan::shares(std::int64_t k, int i, int j, std::span<float> out) const 
     };
     const PixelRange before = in_row(inside(k - 1));
     const PixelRange after = in_row(inside(k + 1));
+    const auto [origin, each] = line_of(fast_axis());
+    const double last_fast = last(fast_axis());
+    const auto share = [&](int pixel, const Stretch& ray) {
+        const double from = before.first <= pixel && pixel < before.last ? place - half : ray.from;
+        const double to = after.first <= pixel && pixel < after.last ? place + half : ray.to;
+        return static_cast<float>(std::clamp((to - from) / (2 * half), 0.0, 2.0));
+    };
     for (std::size_t n = 0; n < out.size(); ++n) {
-        const int at = i + static_cast<int>(n);
-        const Stretch ray = clipped_along(row, fast_axis(), at);
-        const double from = before.first <= at && at < before.last ? place - half : ray.from;
-        const double to = after.first <= at && at < after.last ? place + half : ray.to;
-        out[n] = static_cast<float>(std::clamp((to - from) / (2 * half), 0.0, 2.0));
+        const int pixel = i + static_cast<int>(n);
+        const double at = origin + each * pixel;
+        out[n] =
+            share(pixel, perspective() ? clipped(row, start, factorisation_.eye[fast_axis()], at, last_fast)
+                                       : clipped(row, start, at, slope_of(fast_axis(), at), last_fast));
     }
 }
 

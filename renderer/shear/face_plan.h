@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/view/factorisation.h"
@@ -50,6 +51,8 @@ class FacePlan {
     void shares(std::int64_t k, int i, int j, std::span<float> out) const;
 
   private:
+    std::pair<double, double> line_of(int axis) const;
+    double place_of(int axis, int pixel) const;
     void lay_slice(const volume::Box& box, std::int64_t k);
     std::size_t slot(std::int64_t k) const { return static_cast<std::size_t>(k - slices_.first); }
     bool perspective() const { return factorisation_.projection == view::Projection::perspective; }

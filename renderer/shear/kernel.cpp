@@ -23,8 +23,7 @@ namespace shearwater::shear::HWY_NAMESPACE {
 std::uint64_t composite_8(const Slab<std::uint8_t>& slab, const OpacityTable& table, const Rays& rays) {
 #if HWY_TARGET == HWY_AVX3_DL
     if (!slab.blanks) {
-        return slab.between_nodes ? composite_permuting<true>(slab, table, rays)
-                                  : composite_permuting<false>(slab, table, rays);
+        return composite_permuting(slab, table, rays);
     }
 #endif
     return slab.blanks ? composite_gathering<true>(slab, table, rays)

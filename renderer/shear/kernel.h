@@ -60,7 +60,8 @@ struct Slab {
 inline constexpr std::size_t voxel_padding = 1024;
 
 // What the rays of a tile have gathered so far, premultiplied. One array each, `stride` from row to row,
-// with ray_padding floats beyond every row's last that may be read and written back unchanged.
+// with ray_padding floats beyond every row's last that may be read and written back unchanged. With a table
+// in one hue, r is how much of it, and g and b are left alone.
 struct Rays {
     float *r, *g, *b, *a;
     std::ptrdiff_t stride;

@@ -99,13 +99,12 @@ struct Sixteen {
         steps = in_steps(a);
         return _mm512_sub_epi32(steps, before);
     }
-    HWY_INLINE void add_colours(__m512i gained0, __m512i gained1, __m512i red, __m512i green, __m512i blue) {
-        const __m512i gained = _mm512_ternarylogic_epi32(_mm512_set1_epi32(0xffff), gained0,
-                                                         _mm512_slli_epi32(gained1, 16), 0xca);
-        r = _mm512_dpwssd_epi32(r, gained, red);
-        g = _mm512_dpwssd_epi32(g, gained, green);
-        b = _mm512_dpwssd_epi32(b, gained, blue);
+    // What opacities gained on two slices, side by side in words.
+    static HWY_INLINE __m512i side_by_side(__m512i gained0, __m512i gained1) {
+        return _mm512_ternarylogic_epi32(_mm512_set1_epi32(0xffff), gained0, _mm512_slli_epi32(gained1, 16),
+                                         0xca);
     }
+    template <bool one_hue>
     HWY_INLINE void end(const Rays& rays, std::ptrdiff_t ray) const {
         const auto add = [](__m512i sum, float* to) HWY_ATTR {
             _mm512_storeu_ps(
@@ -114,8 +113,10 @@ struct Sixteen {
                                     _mm512_loadu_ps(to)));
         };
         add(r, rays.r + ray);
-        add(g, rays.g + ray);
-        add(b, rays.b + ray);
+        if constexpr (!one_hue) {
+            add(g, rays.g + ray);
+            add(b, rays.b + ray);
+        }
         _mm512_storeu_ps(rays.a + ray, a);
     }
 };
@@ -188,18 +189,25 @@ HWY_INLINE void classify_pair(const OpacityTable::Bytes& tables, Row32::Pair& pa
     }
 }
 
+template <bool one_hue>
 HWY_INLINE void composite_pair(const OpacityTable::Bytes& tables, const Row32::Pair& pair, Sixteen& low,
                                Sixteen& high) {
     const __mmask64 upper = _mm512_movepi8_mask(pair.nearest);
+    const __m512i low0 = low.gain(pair.low0);
+    const __m512i low_gained = Sixteen::side_by_side(low0, low.gain(pair.low1));
+    const __m512i high0 = high.gain(pair.high0);
+    const __m512i high_gained = Sixteen::side_by_side(high0, high.gain(pair.high1));
     const Words r = look_up(tables.r, pair.nearest, upper);
-    const Words g = look_up(tables.g, pair.nearest, upper);
-    const Words b = look_up(tables.b, pair.nearest, upper);
-    const __m512i low_gain0 = low.gain(pair.low0);
-    const __m512i low_gain1 = low.gain(pair.low1);
-    low.add_colours(low_gain0, low_gain1, r.low, g.low, b.low);
-    const __m512i high_gain0 = high.gain(pair.high0);
-    const __m512i high_gain1 = high.gain(pair.high1);
-    high.add_colours(high_gain0, high_gain1, r.high, g.high, b.high);
+    low.r = _mm512_dpwssd_epi32(low.r, low_gained, r.low);
+    high.r = _mm512_dpwssd_epi32(high.r, high_gained, r.high);
+    if constexpr (!one_hue) {
+        const Words g = look_up(tables.g, pair.nearest, upper);
+        low.g = _mm512_dpwssd_epi32(low.g, low_gained, g.low);
+        high.g = _mm512_dpwssd_epi32(high.g, high_gained, g.high);
+        const Words b = look_up(tables.b, pair.nearest, upper);
+        low.b = _mm512_dpwssd_epi32(low.b, low_gained, b.low);
+        high.b = _mm512_dpwssd_epi32(high.b, high_gained, b.high);
+    }
 }
 
 // What does not change from row to row of a chunk.
@@ -209,7 +217,7 @@ struct Prepared {
 };
 
 // One row of a chunk on all slices.
-template <bool between_nodes>
+template <bool between_nodes, bool one_hue>
 HWY_INLINE std::uint64_t composite_row_of_chunk(const Slab<std::uint8_t>& slab, const Prepared& prepared,
                                                 const OpacityTable& table, const Rays& rays, int i, int j) {
     const std::ptrdiff_t ray = j * rays.stride + i;
@@ -260,17 +268,17 @@ HWY_INLINE std::uint64_t composite_row_of_chunk(const Slab<std::uint8_t>& slab, 
     }
     for (std::size_t p = 0; p < pairs; ++p) {
         if (row.pairs[p].any) {
-            composite_pair(table.bytes(), row.pairs[p], low, high);
+            composite_pair<one_hue>(table.bytes(), row.pairs[p], low, high);
         }
     }
-    low.end(rays, ray);
-    high.end(rays, ray + 16);
+    low.end<one_hue>(rays, ray);
+    high.end<one_hue>(rays, ray + 16);
     return taken;
 }
 
-template <bool between_nodes>
-std::uint64_t composite_permuting(const Slab<std::uint8_t>& slab, const OpacityTable& table,
-                                  const Rays& rays) {
+template <bool between_nodes, bool one_hue>
+std::uint64_t composite_permuting_as(const Slab<std::uint8_t>& slab, const OpacityTable& table,
+                                     const Rays& rays) {
     const view::Rect pixels = pixels_of(slab);
     double scale = 0;
     for (int k = 0; k < slab.count; ++k) {
@@ -293,10 +301,20 @@ std::uint64_t composite_permuting(const Slab<std::uint8_t>& slab, const OpacityT
         }
         for (int j = pixels.y0; j < pixels.y1; ++j) {
             fetching.step();
-            taken += composite_row_of_chunk<between_nodes>(slab, prepared, table, rays, i, j);
+            taken += composite_row_of_chunk<between_nodes, one_hue>(slab, prepared, table, rays, i, j);
         }
     }
     return taken;
+}
+
+inline std::uint64_t composite_permuting(const Slab<std::uint8_t>& slab, const OpacityTable& table,
+                                         const Rays& rays) {
+    if (table.one_hue()) {
+        return slab.between_nodes ? composite_permuting_as<true, true>(slab, table, rays)
+                                  : composite_permuting_as<false, true>(slab, table, rays);
+    }
+    return slab.between_nodes ? composite_permuting_as<true, false>(slab, table, rays)
+                              : composite_permuting_as<false, false>(slab, table, rays);
 }
 
 }  // namespace shearwater::shear::HWY_NAMESPACE

@@ -85,9 +85,34 @@ OpacityTable::OpacityTable(const view::TransferFunction& tf, int levels) {
         steepest_ = i > 0 ? std::max(steepest_, std::abs(node.extinction - (&node)[-1].extinction)) : 0;
         opaque_before_.push_back(opaque_before_.back() + (node.extinction > 0 ? 1 : 0));
     }
+    find_hue();
     nodes_.push_back(nodes_.back());
     if (codes_per_node == 1) {
         fill_bytes();
+    }
+}
+
+void OpacityTable::find_hue() {
+    const auto brightest = std::max_element(nodes_.begin(), nodes_.end(), [](const Node& a, const Node& b) {
+        return a.r + a.g + a.b < b.r + b.g + b.b;
+    });
+    const Node full = *brightest;
+    const float square = full.r * full.r + full.g * full.g + full.b * full.b;
+    const auto share = [&](const Node& node) {
+        return square > 0 ? (node.r * full.r + node.g * full.g + node.b * full.b) / square : 0;
+    };
+    // As near as a quarter of a level of 255.
+    constexpr float tolerance = 1.0F / 1024;
+    one_hue_ = std::all_of(nodes_.begin(), nodes_.end(), [&](const Node& node) {
+        const float s = share(node);
+        return s <= 1 && std::abs(node.r - s * full.r) <= tolerance &&
+               std::abs(node.g - s * full.g) <= tolerance && std::abs(node.b - s * full.b) <= tolerance;
+    });
+    if (one_hue_) {
+        hue_ = {full.r, full.g, full.b};
+        for (Node& node : nodes_) {
+            node = {share(node), 0, 0, node.extinction};
+        }
     }
 }
 

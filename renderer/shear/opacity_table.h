@@ -12,7 +12,8 @@ namespace shearwater::shear {
 
 class OpacityTable {
   public:
-    // Colour, not premultiplied, and extinction in depth_unit().
+    // Colour, not premultiplied, and extinction in depth_unit(). Of a table in one hue, r is the share of
+    // hue() that the colour is, and g and b are 0.
     struct Node {
         float r, g, b, extinction;
     };
@@ -38,6 +39,9 @@ class OpacityTable {
     // nodes, where a node has the mean over the stretch it is nearest to, so that no pin, however narrow,
     // falls between two.
     float nodes_per_code() const { return nodes_per_code_; }
+    // Whether all colours are shares of one, as in a map from black to some colour: then one channel does.
+    bool one_hue() const { return one_hue_; }
+    const view::Rgb& hue() const { return hue_; }
     const Node* nodes() const { return nodes_.data(); }  // and one more after the last
     const Bytes& bytes() const { return bytes_; }        // for 8 bits only
 
@@ -50,9 +54,12 @@ class OpacityTable {
     bool any_opacity(std::uint16_t min, std::uint16_t max) const;
 
   private:
+    void find_hue();
     void fill_bytes();
 
     float nodes_per_code_;
+    bool one_hue_ = false;
+    view::Rgb hue_;
     float depth_unit_;
     float steepest_ = 0;
     std::vector<Node> nodes_;

@@ -1,6 +1,9 @@
 #include "renderer/shear/render.h"
 
 #include <atomic>
+#include <memory>
+#include <mutex>
+#include <numeric>
 
 #include "renderer/shear/face_plan.h"
 #include "renderer/shear/tile.h"
@@ -17,7 +20,35 @@ struct Frame {
     const BrickVolume& volume;
     const Classification& classification;
     BricksMet met;
-    std::atomic<std::uint64_t> samples{0};
+    std::uint64_t samples = 0;
+};
+
+// Tiles that wait for a thread to need one again.
+template <class Code>
+class IdleTiles {
+  public:
+    template <class Make>
+    std::unique_ptr<Tile<Code>> take(const Make& make) {
+        const std::lock_guard lock(mutex_);
+        if (tiles_.empty()) {
+            return make();
+        }
+        auto tile = std::move(tiles_.back());
+        tiles_.pop_back();
+        return tile;
+    }
+    void give_back(std::unique_ptr<Tile<Code>> tile) {
+        const std::lock_guard lock(mutex_);
+        tiles_.push_back(std::move(tile));
+    }
+    std::uint64_t samples() const {
+        return std::accumulate(tiles_.begin(), tiles_.end(), std::uint64_t{0},
+                               [](std::uint64_t sum, const auto& tile) { return sum + tile->samples(); });
+    }
+
+  private:
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<Tile<Code>>> tiles_;
 };
 
 template <class Code>
@@ -26,19 +57,23 @@ void render_window(Frame& frame, std::span<const Code> codes, const FacePlan& pl
     const Rect& whole = plan.window();
     const int across = (whole.width() + Tile<Code>::width - 1) / Tile<Code>::width;
     const int down = (whole.height() + Tile<Code>::height - 1) / Tile<Code>::height;
+    IdleTiles<Code> idle;
     const auto paint = [&](std::int64_t n) {
         const int x = whole.x0 + static_cast<int>(n % across) * Tile<Code>::width;
         const int y = whole.y0 + static_cast<int>(n / across) * Tile<Code>::height;
-        Tile<Code> tile(frame.volume, codes, frame.classification, plan, frame.met);
-        tile.render(intersection(whole, {x, y, x + Tile<Code>::width, y + Tile<Code>::height}));
-        tile.store(window);
-        frame.samples.fetch_add(tile.samples(), std::memory_order_relaxed);
+        auto tile = idle.take([&] {
+            return std::make_unique<Tile<Code>>(frame.volume, codes, frame.classification, plan, frame.met);
+        });
+        tile->render(intersection(whole, {x, y, x + Tile<Code>::width, y + Tile<Code>::height}));
+        tile->store(window);
+        idle.give_back(std::move(tile));
     };
     workers.for_each(std::int64_t{across} * down, paint, stop);
+    frame.samples += idle.samples();
 }
 
 RenderStats count(const Frame& frame) {
-    RenderStats stats{.samples = frame.samples.load(), .bricks_total = frame.met.size()};
+    RenderStats stats{.samples = frame.samples, .bricks_total = frame.met.size()};
     for (std::size_t i = 0; i < frame.met.size(); ++i) {
         stats.bricks_empty += frame.classification.opaque[i] == 0 ? 1 : 0;
         stats.bricks_rendered += frame.met[i].load(std::memory_order_relaxed);

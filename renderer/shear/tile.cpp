@@ -393,12 +393,18 @@ const float* Tile<Code>::lengths_on(std::int64_t k, const Rect& pixels, Plane& s
 
 template <class Code>
 void Tile<Code>::store(image::Window& window) const {
+    const OpacityTable& table = classification_.table;
+    const auto hue_r = static_cast<float>(table.hue().r);
+    const auto hue_g = static_cast<float>(table.hue().g);
+    const auto hue_b = static_cast<float>(table.hue().b);
     for (int j = rect_.y0; j < rect_.y1; ++j) {
         for (int i = rect_.x0; i < rect_.x1; ++i) {
             const std::size_t n = slot(i, j);
+            const float r = planes_->r[n];
             const Rect at = plan_.turn({i, j, i, j});
-            window.pixels.at(at.x0 - window.rect.x0, at.y0 - window.rect.y0) = {planes_->r[n], planes_->g[n],
-                                                                                planes_->b[n], planes_->a[n]};
+            window.pixels.at(at.x0 - window.rect.x0, at.y0 - window.rect.y0) =
+                table.one_hue() ? image::RgbaF{r * hue_r, r * hue_g, r * hue_b, planes_->a[n]}
+                                : image::RgbaF{r, planes_->g[n], planes_->b[n], planes_->a[n]};
         }
     }
 }

@@ -40,6 +40,23 @@ TEST(OpacityTable, HoldsTheTransferFunction) {
     }
 }
 
+TEST(OpacityTable, KnowsOneHue) {
+    const auto table_of = [](const std::vector<view::ColourPin>& pins) {
+        return OpacityTable({.opacity_pins = {view::Flat{0.1}}, .colour_pins = pins}, 255);
+    };
+    EXPECT_TRUE(table_of({{0, {1, 1, 1}}}).one_hue());
+    EXPECT_TRUE(table_of({{0, {0, 0, 0}}, {1, {1, 1, 1}}}).one_hue());
+    EXPECT_TRUE(table_of({{0, {0, 0, 0}}, {0.4, {0.5, 0.25, 0}}, {1, {1, 0.5, 0}}}).one_hue());
+    EXPECT_FALSE(table_of({{0, {0, 0, 0}}, {1, {1, 1, 0.99}}, {0.5, {1, 1, 1}}}).one_hue());
+    EXPECT_FALSE(table_of(*view::colour_map("inferno")).one_hue());
+    const OpacityTable table = table_of({{0, {0, 0, 0}}, {1, {0.8, 0.4, 0.2}}});
+    EXPECT_NEAR(static_cast<double>(table.nodes()[128].r) * table.hue().g, 0.2, 1e-6);
+    EXPECT_EQ(table.nodes()[128].g, 0);
+    const OpacityTable black = table_of({{0, {0, 0, 0}}});
+    EXPECT_TRUE(black.one_hue());
+    EXPECT_EQ(black.nodes()[9].r * static_cast<float>(black.hue().r), 0);
+}
+
 // A pin between two nodes has the same weight as a whole, however narrow.
 TEST(OpacityTable, MissesNoPin) {
     for (const double centre : {0.3, 0.30093, 0.3017}) {
@@ -207,9 +224,13 @@ view::TransferFunction smooth() {
             .colour_pins = {{0, {1, 0, 0.5}}, {0.5, {0, 1, 0.25}}, {1, {0.3, 0.6, 1}}}};
 }
 
+view::TransferFunction in_one_hue() {
+    return {.opacity_pins = smooth().opacity_pins, .colour_pins = {{0, {0, 0, 0}}, {0.7, {0.8, 0.4, 0.2}}}};
+}
+
 template <class Code>
-void expect_definition(bool blanks, bool between_nodes) {
-    const OpacityTable table(smooth(), sizeof(Code) == 1 ? 255 : 65535);
+void expect_definition(bool blanks, bool between_nodes, const view::TransferFunction& tf = smooth()) {
+    const OpacityTable table(tf, sizeof(Code) == 1 ? 255 : 65535);
     for (const std::ptrdiff_t stride : {33, 48}) {
         for (const int slices : {1, 2, 3, 8}) {
             for (const bool halves : {false, true}) {
@@ -245,6 +266,8 @@ TEST_P(EveryTarget, CompositesAsDefined) {
         expect_definition<std::uint8_t>(false, between_nodes);
         expect_definition<std::uint8_t>(true, between_nodes);
     }
+    expect_definition<std::uint8_t>(false, false, in_one_hue());
+    expect_definition<std::uint8_t>(true, true, in_one_hue());
     expect_definition<std::uint16_t>(false, true);
     expect_definition<std::uint16_t>(true, true);
 }
