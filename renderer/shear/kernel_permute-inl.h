@@ -210,8 +210,23 @@ HWY_INLINE void composite_pair(const OpacityTable::Bytes& tables, const Row32::P
     }
 }
 
+// The codes, in cell_steps, beyond which none has opacity.
+struct OpaqueCodes {
+    __m512i above, below;
+
+    explicit OpaqueCodes(const OpacityTable& table)
+        : above(_mm512_set1_epi16(static_cast<short>(std::max(table.first_opaque() - 1, -1) * cell_steps))),
+          below(_mm512_set1_epi16(static_cast<short>(std::min(table.last_opaque() + 1, 256) * cell_steps))) {}
+    HWY_INLINE bool none(__m512i codes) const {
+        return (_mm512_cmpgt_epi16_mask(codes, above) & _mm512_cmplt_epi16_mask(codes, below)) == 0;
+    }
+};
+
 // What does not change from row to row of a chunk.
 struct Prepared {
+    explicit Prepared(const OpacityTable& table) : opaque(table) {}
+
+    OpaqueCodes opaque;
     std::array<Permutation, Slab<std::uint8_t>::max_slices> permutations;
     std::array<RowPlaces, Slab<std::uint8_t>::max_slices> rows;
 };
@@ -232,7 +247,7 @@ HWY_INLINE std::uint64_t composite_row_of_chunk(const Slab<std::uint8_t>& slab, 
     }
     Row32 row;
     std::uint64_t taken = 0;
-    std::size_t count = 0;  // of slices that want some of the row's pixels
+    std::size_t count = 0;  // of slices on which some of the row's samples may have opacity
     for (std::size_t k = 0; k < static_cast<std::size_t>(slab.count); ++k) {
         const Slice<std::uint8_t>& slice = slab.slices[k];
         const std::uint32_t wanted = prepared.permutations[k].wanted & live;
@@ -240,9 +255,12 @@ HWY_INLINE std::uint64_t composite_row_of_chunk(const Slab<std::uint8_t>& slab, 
             continue;
         }
         taken += static_cast<std::uint64_t>(std::popcount(wanted));
+        const __m512i codes = codes_along(slab, slice, j, prepared.rows[k], prepared.permutations[k]);
+        if (prepared.opaque.none(codes)) {
+            continue;
+        }
         Row32::Pair& pair = row.pairs[count / 2];
-        (count % 2 == 0 ? pair.codes0 : pair.codes1) =
-            codes_along(slab, slice, j, prepared.rows[k], prepared.permutations[k]);
+        (count % 2 == 0 ? pair.codes0 : pair.codes1) = codes;
         (count % 2 == 0 ? pair.low0 : pair.low1) =
             _mm512_maskz_loadu_ps(static_cast<__mmask16>(wanted), slice.lengths + ray);
         (count % 2 == 0 ? pair.high0 : pair.high1) =
@@ -250,7 +268,7 @@ HWY_INLINE std::uint64_t composite_row_of_chunk(const Slab<std::uint8_t>& slab, 
         ++count;
     }
     if (count == 0) {
-        return 0;
+        return taken;
     }
     if (count % 2 == 1) {
         Row32::Pair& pair = row.pairs[count / 2];
@@ -289,7 +307,7 @@ std::uint64_t composite_permuting_as(const Slab<std::uint8_t>& slab, const Opaci
     const int most = room >= permuted_pixels ? permuted_pixels : std::max(1, static_cast<int>(room));
     std::uint64_t taken = 0;
     Fetching fetching(slab.ahead, (pixels.width() + most - 1) / most * pixels.height());
-    Prepared prepared;
+    Prepared prepared(table);
     for (std::size_t k = 0; k < static_cast<std::size_t>(slab.count); ++k) {
         lay_rows(slab, slab.slices[k], prepared.rows[k]);
     }

@@ -79,7 +79,8 @@ HWY_INLINE Permutation permutation_of(const Slab<std::uint8_t>& slab, const Slic
         return _mm512_or_si512(_mm512_slli_epi32(cell, 16), _mm512_cvtps_epi32(fraction));
     };
     const __m512i low = half(0);
-    const __m512i high = half(16);
+    // Narrow chunks have no second half.
+    const __m512i high = begin + count > 16 ? half(16) : _mm512_setzero_si512();
     const __m512i cell = words_of_pixels(low, high, 1);
     // Interleaving two rows of voxels within 16 bytes leaves each eight in one of two vectors by turns.
     const auto index = [](__m512i voxel) HWY_ATTR {

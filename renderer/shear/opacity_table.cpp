@@ -85,6 +85,11 @@ OpacityTable::OpacityTable(const view::TransferFunction& tf, int levels) {
         steepest_ = i > 0 ? std::max(steepest_, std::abs(node.extinction - (&node)[-1].extinction)) : 0;
         opaque_before_.push_back(opaque_before_.back() + (node.extinction > 0 ? 1 : 0));
     }
+    const auto opaque = [](const Node& node) { return node.extinction > 0; };
+    const auto first = std::find_if(nodes_.begin(), nodes_.end(), opaque);
+    const auto last = std::find_if(nodes_.rbegin(), nodes_.rend(), opaque);
+    first_opaque_ = static_cast<int>(first - nodes_.begin());
+    last_opaque_ = static_cast<int>(nodes_.rend() - last) - 1;
     find_hue();
     nodes_.push_back(nodes_.back());
     if (codes_per_node == 1) {

@@ -50,6 +50,9 @@ class OpacityTable {
 
     // How much extinction changes at most from one node to the next, in depth_unit().
     float steepest() const { return steepest_; }
+    // Nodes before the first and after the last of these have no extinction; first > last if none has any.
+    int first_opaque() const { return first_opaque_; }
+    int last_opaque() const { return last_opaque_; }
     // Whether some code from min to max, interpolated ones included, has opacity; none has if min > max.
     bool any_opacity(std::uint16_t min, std::uint16_t max) const;
 
@@ -62,6 +65,7 @@ class OpacityTable {
     view::Rgb hue_;
     float depth_unit_;
     float steepest_ = 0;
+    int first_opaque_ = 0, last_opaque_ = -1;
     std::vector<Node> nodes_;
     std::vector<int> opaque_before_;  // nodes with opacity before each
     Bytes bytes_{};
