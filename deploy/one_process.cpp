@@ -83,12 +83,14 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
 
     Picture picture;
     std::vector<Seconds> times;
+    shear::Classifier classifier;
     for (int i = 0; i < repeat; ++i) {
         clock.lap();
         const auto factorisation =
             view::factorise(*camera, *size, lattice, view::sampling(view.quality_value()));
         shear::RenderStats stats;
-        const auto windows = shear::render(*volume, factorisation, tf, workers, &stats);
+        const auto& classification = classifier.classify(*volume, tf, workers);
+        const auto windows = shear::render(*volume, classification, factorisation, workers, &stats);
         const double render = clock.lap();
         picture.image = image::warp(factorisation, windows, *camera, *size, tf.background, workers);
         const double warp = clock.lap();

@@ -128,7 +128,7 @@ base::Status codecs(const Flags& flags) {
         const Workload work = workload(name);
         deploy::ProgressBar bar(name);
         bar.show(0);
-        const auto cube = InProcess::load(work.cube(flags.edge), flags.common.threads,
+        auto cube = InProcess::load(work.cube(flags.edge), flags.common.threads,
                                           [&](double share) { bar.show(share); });
         if (!cube) {
             return cube.error();

@@ -83,7 +83,7 @@ view::Camera along_axis(view::Camera camera, int steps) {
     return camera;
 }
 
-base::Status draw_axes(const Flags& flags, const Case& drawn, const InProcess& cube,
+base::Status draw_axes(const Flags& flags, const Case& drawn, InProcess& cube,
                        const deploy::ViewOptions& view, Report& report) {
     const auto camera = view.camera(cube.lattice());
     if (!camera) {
@@ -111,7 +111,7 @@ base::Status draw_axes(const Flags& flags, const Case& drawn, const InProcess& c
 }
 
 base::Status draw(const Flags& flags, const Case& drawn, Report& report) {
-    const auto cube = [&] {
+    auto cube = [&] {
         deploy::ProgressBar bar("loading " + drawn.name);
         return InProcess::load(drawn.cube, flags.common.threads, [&](double share) { bar.show(share); });
     }();

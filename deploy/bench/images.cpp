@@ -37,7 +37,7 @@ base::Status images(const Flags& flags) {
     }
     deploy::ProgressBar bar(flags.workload);
     const auto show = [&](double share) { bar.show(share); };
-    const auto cube = InProcess::load(work.cube(flags.edge), flags.common.threads, show);
+    auto cube = InProcess::load(work.cube(flags.edge), flags.common.threads, show);
     if (!cube) {
         return cube.error();
     }

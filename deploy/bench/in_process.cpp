@@ -87,13 +87,14 @@ base::Result<InProcess> InProcess::load(const options::CubeOptions& options, int
 }
 
 FrameTimes InProcess::draw(const view::Camera& camera, const view::ImageSize& size, view::Quality quality,
-                           const view::TransferFunction& tf) const {
+                           const view::TransferFunction& tf) {
     FrameTimes times;
     Clock clock;
     const auto factorisation = view::factorise(camera, size, lattice_, view::sampling(quality));
     times.factorise = clock.lap();
     shear::RenderStats stats;
-    const auto windows = shear::render(bricks_, factorisation, tf, *workers_, &stats);
+    const auto& classification = classifier_.classify(bricks_, tf, *workers_);
+    const auto windows = shear::render(bricks_, classification, factorisation, *workers_, &stats);
     times.render = clock.lap();
     const auto picture = image::warp(factorisation, windows, camera, size, tf.background, *workers_);
     times.warp = clock.lap();
@@ -106,7 +107,7 @@ FrameTimes InProcess::draw(const view::Camera& camera, const view::ImageSize& si
 
 base::Result<std::vector<FrameTimes>> InProcess::draw_path(deploy::ViewOptions view, int frames,
                                                            const view::TransferFunction& tf,
-                                                           const volume::Progress& progress) const {
+                                                           const volume::Progress& progress) {
     const auto size = view.image_size();
     if (!size) {
         return size.error();

@@ -13,6 +13,7 @@
 #include "deploy/bench/timing.h"
 #include "deploy/view_options.h"
 #include "renderer/shear/brick_volume.h"
+#include "renderer/shear/classification.h"
 
 namespace shearwater::bench {
 
@@ -43,11 +44,11 @@ class InProcess {
     const shear::BrickVolume& bricks() const { return bricks_; }
 
     FrameTimes draw(const view::Camera& camera, const view::ImageSize& size, view::Quality quality,
-                    const view::TransferFunction& tf) const;
+                    const view::TransferFunction& tf);
     // One frame unmeasured, then `frames` along the path that `view` begins.
     base::Result<std::vector<FrameTimes>> draw_path(deploy::ViewOptions view, int frames,
                                                     const view::TransferFunction& tf,
-                                                    const volume::Progress& progress) const;
+                                                    const volume::Progress& progress);
 
   private:
     InProcess(view::Lattice lattice, std::unique_ptr<base::Workers> workers, shear::BrickVolume bricks)
@@ -56,6 +57,7 @@ class InProcess {
     view::Lattice lattice_;
     std::unique_ptr<base::Workers> workers_;
     shear::BrickVolume bricks_;
+    shear::Classifier classifier_;  // of the bricks
 };
 
 }  // namespace shearwater::bench

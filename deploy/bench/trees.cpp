@@ -38,7 +38,7 @@ base::Result<Drawn> draw_here(const Flags& flags, std::int64_t edge) {
     const Workload work = workload(flags.workload);
     deploy::ProgressBar bar(title(flags, edge, 1));
     const auto show = [&](double share) { bar.show(share); };
-    const auto cube = InProcess::load(work.cube(edge), flags.common.threads, show);
+    auto cube = InProcess::load(work.cube(edge), flags.common.threads, show);
     if (!cube) {
         return cube.error();
     }

@@ -98,6 +98,7 @@ void Jobs::count(const leaf::Count& job, const std::stop_token& stop) {
 
 void Jobs::load(const leaf::Load& job, const std::stop_token& stop) {
     volume_.reset();
+    classifier_ = {};
     const auto source = open(job.job, job.share, stop);
     if (!source) {
         tell_(leaf::Loaded{job.job, source.error()});
@@ -123,7 +124,8 @@ void Jobs::draw(const leaf::Draw& job, const std::stop_token& stop) {
     const auto begin = std::chrono::steady_clock::now();
     shear::RenderStats stats;
     node::Merged drawn{.frame = job.frame, .windows = {}, .missing = {}, .stats = {}};
-    drawn.windows = shear::render(*volume_, job.factorisation, job.tf, workers_, &stats, stop);
+    const auto& classification = classifier_.classify(*volume_, job.tf, workers_);
+    drawn.windows = shear::render(*volume_, classification, job.factorisation, workers_, &stats, stop);
     if (stop.stop_requested()) {
         return;
     }

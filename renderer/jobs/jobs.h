@@ -16,6 +16,7 @@
 #include "renderer/jobs/link_source.h"
 #include "renderer/leaf/leaf.h"
 #include "renderer/shear/brick_volume.h"
+#include "renderer/shear/classification.h"
 
 namespace shearwater::jobs {
 
@@ -42,7 +43,9 @@ class Jobs {
 
     std::function<void(leaf::JobEvent)> tell_;
     base::Workers workers_;
-    std::optional<shear::BrickVolume> volume_;  // touched by the jobs' thread only
+    // Touched by the jobs' thread only.
+    std::optional<shear::BrickVolume> volume_;
+    shear::Classifier classifier_;  // of the volume
     std::chrono::steady_clock::time_point memory_told_;
     std::mutex mutex_;
     std::map<leaf::Job, std::stop_source> running_;

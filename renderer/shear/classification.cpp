@@ -28,4 +28,12 @@ Classification classify(const BrickVolume& volume, const view::TransferFunction&
     return classification;
 }
 
+const Classification& Classifier::classify(const BrickVolume& volume, const view::TransferFunction& tf,
+                                           base::Workers& workers) {
+    if (!last_ || last_->tf != tf) {
+        last_ = {tf, shear::classify(volume, tf, workers)};
+    }
+    return last_->result;
+}
+
 }  // namespace shearwater::shear

@@ -2,6 +2,7 @@
 // A transfer function applied to a volume: what an edit changes. Made once for many views.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/base/workers.h"
@@ -25,5 +26,19 @@ struct Classification {
 };
 
 Classification classify(const BrickVolume& volume, const view::TransferFunction& tf, base::Workers& workers);
+
+// Keeps the last classification of one volume: only an edit of the transfer function makes a new one.
+class Classifier {
+  public:
+    const Classification& classify(const BrickVolume& volume, const view::TransferFunction& tf,
+                                   base::Workers& workers);
+
+  private:
+    struct Last {
+        view::TransferFunction tf;
+        Classification result;
+    };
+    std::optional<Last> last_;
+};
 
 }  // namespace shearwater::shear

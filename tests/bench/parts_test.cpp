@@ -46,7 +46,7 @@ TEST(Workload, ThePathBeginsWhereOtherRenderersBegin) {
 
 TEST(Workload, EveryFrameOfThePathMeetsTheWholeCube) {
     const Workload work = workload("W1");
-    const auto cube = InProcess::load(work.cube(24), 2, {});
+    auto cube = InProcess::load(work.cube(24), 2, {});
     ASSERT_TRUE(cube);
     deploy::ViewOptions view = first_view(24);
     view.size = "48x48";
