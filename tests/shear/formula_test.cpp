@@ -71,7 +71,7 @@ Worst window_error(const Factorisation& f, const std::vector<image::Window>& win
     return worst;
 }
 
-// The picture: every pixel farther than 5 from where rays begin to come in or go out by another face of
+// The picture: every pixel farther than 3 from where rays begin to come in or go out by another face of
 // the cube, the silhouette being one such place. There the chord has a crease, which an intermediate
 // image of finite pitch rounds off.
 Worst picture_error(const Image<RgbaF>& picture, const Lattice& lattice, const Camera& camera, double tau) {
@@ -84,8 +84,8 @@ Worst picture_error(const Image<RgbaF>& picture, const Lattice& lattice, const C
             };
             const Chord here = chord(0, 0);
             bool even = here.out >= 0 && here.slices > 1.001;
-            for (const double dx : {-5, 0, 5}) {
-                for (const double dy : {-5, 0, 5}) {
+            for (const double dx : {-3, 0, 3}) {
+                for (const double dy : {-3, 0, 3}) {
                     const Chord there = chord(dx, dy);
                     even = even && there.in == here.in && there.out == here.out;
                 }

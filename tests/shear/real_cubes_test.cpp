@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "common/fits/cube.h"
@@ -19,32 +20,59 @@ using view::Projection;
 
 class RealCube : public testing::TestWithParam<const char*> {};
 
+// The cube of a file, its limits as a user gets them who says nothing.
+void open(const std::string& path, std::optional<Scene>& scene) {
+    auto file = fits::Cube::open(path);
+    ASSERT_TRUE(file.has_value()) << file.error().message();
+    scene.emplace(Scene{.cube = FloatCube(file->info().n)});
+    ASSERT_TRUE(file->read(volume::whole(scene->cube.n()), scene->cube.values()).has_value());
+    volume::Histogram histogram;
+    histogram.add(scene->cube.values());
+    const volume::Limits limits = volume::percentile_limits(histogram, 99.5);
+    scene->mapping.lo = limits.lo;
+    scene->mapping.hi = limits.hi;
+}
+
+void expect_match(Scene& scene, const std::string& view, const Camera& camera, const view::ImageSize& size) {
+    const Match found = match(scene, camera, size);
+    EXPECT_GE(found.at_normal, 38) << view;
+    EXPECT_GE(found.at_high, 40) << view;
+    std::printf("%s: %.1f dB, high %.1f dB\n", view.c_str(), found.at_normal, found.at_high);
+}
+
 TEST_P(RealCube, IsTheRayCastersPicture) {
     const auto path = std::string(SHEARWATER_SHARED_DATA) + "/" + GetParam() + ".fits";
     if (!std::filesystem::exists(path)) {
         GTEST_SKIP() << "no sample data: " << path;
     }
-    auto file = fits::Cube::open(path);
-    ASSERT_TRUE(file.has_value()) << file.error().message();
-    Scene scene{.cube = FloatCube(file->info().n)};
-    ASSERT_TRUE(file->read(volume::whole(scene.cube.n()), scene.cube.values()).has_value());
-    volume::Histogram histogram;
-    histogram.add(scene.cube.values());
-    const volume::Limits limits = volume::percentile_limits(histogram, 99.5);
-    scene.mapping.lo = limits.lo;
-    scene.mapping.hi = limits.hi;
-
-    const Lattice lattice = scene.lattice();
+    std::optional<Scene> scene;
+    ASSERT_NO_FATAL_FAILURE(open(path, scene));
+    const Lattice lattice = scene->lattice();
     for (const auto& [azimuth, elevation] : {std::pair{30.0, 20.0}, {255.0, 60.0}}) {
         for (const auto projection : {Projection::perspective, Projection::parallel}) {
-            const Camera camera = view::camera_on({azimuth, elevation}, lattice, projection);
-            const Match found = match(scene, camera, {400, 400});
-            EXPECT_GE(found.at_normal, 38) << azimuth << ", " << elevation;
-            EXPECT_GE(found.at_high, 40) << azimuth << ", " << elevation;
-            std::printf("%s from %.0f, %.0f %s: %.1f dB, high %.1f dB\n", GetParam(), azimuth, elevation,
-                        projection == Projection::parallel ? "parallel" : "perspective", found.at_normal,
-                        found.at_high);
+            expect_match(*scene,
+                         std::string(GetParam()) + " from " + std::to_string(azimuth) +
+                             (projection == Projection::parallel ? ", parallel" : ", perspective"),
+                         view::camera_on({azimuth, elevation}, lattice, projection), {400, 400});
         }
+    }
+}
+
+// Close by and from within, a voxel is many pixels wide, and what lies between two slices shows.
+TEST_P(RealCube, IsSoCloseBy) {
+    const auto path = std::string(SHEARWATER_SHARED_DATA) + "/" + GetParam() + ".fits";
+    if (!std::filesystem::exists(path)) {
+        GTEST_SKIP() << "no sample data: " << path;
+    }
+    std::optional<Scene> scene;
+    ASSERT_NO_FATAL_FAILURE(open(path, scene));
+    for (const double azimuth : {30.0, 255.0}) {
+        for (const NamedView& view : views_from(scene->lattice(), azimuth, 20)) {
+            expect_match(*scene, std::string(GetParam()) + ", " + view.name, view.camera, {300, 300});
+        }
+        Camera half = view::camera_on({azimuth, 20}, scene->lattice(), Projection::parallel);
+        half.height /= 2;
+        expect_match(*scene, std::string(GetParam()) + ", half of it, parallel", half, {300, 300});
     }
 }
 
