@@ -85,8 +85,7 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     std::vector<Seconds> times;
     for (int i = 0; i < repeat; ++i) {
         clock.lap();
-        const auto factorisation =
-            view::factorise(*camera, *size, lattice, view::sampling(view.quality_value()));
+        const auto factorisation = view::factorise(*camera, *size, lattice, view.sampling());
         shear::RenderStats stats;
         const auto windows = shear::render(*volume, factorisation, tf, workers, &stats);
         const double render = clock.lap();
