@@ -18,6 +18,7 @@ constexpr int unusable = 2;
 struct Options {
     std::string connect, secret_file, tf_file, screenshot;
     std::string size = "1280x800";
+    std::string lod = "on";
     ui::WindowOptions window;
 };
 
@@ -35,6 +36,9 @@ void declare(CLI::App& app, Options& options) {
         "--secret-file", options.secret_file,
         fmt::format("A file of mode 0600 with the server's secret; else ${}", link::Secret::variable));
     app.add_option("--tf", options.tf_file, "Begin with the transfer function of this TOML file");
+    app.add_option("--lod", options.lod, "off: every voxel counts, however small in the picture")
+        ->check(CLI::IsMember({"on", "off"}))
+        ->capture_default_str();
     app.add_option("--size", options.size, "The window's size")->check(check_size)->capture_default_str();
     app.add_option("--scale", options.window.scale, "Pixels per nominal pixel; else as the display says")
         ->check(CLI::Range(0.5, 4.0));
@@ -77,7 +81,9 @@ base::Status run(Options options) {
         return window.error();
     }
     ui::Network network(*server, std::move(*secret), ui::Window::wake);
-    ui::App app(**window, network, {.tf = std::move(*tf), .screenshot = options.screenshot});
+    ui::App app(**window, network, {.tf = std::move(*tf),
+                                  .level_of_detail = options.lod == "on",
+                                  .screenshot = options.screenshot});
     return app.run();
 }
 

@@ -86,8 +86,7 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     shear::Classifier classifier;
     for (int i = 0; i < repeat; ++i) {
         clock.lap();
-        const auto factorisation =
-            view::factorise(*camera, *size, lattice, view::sampling(view.quality_value()));
+        const auto factorisation = view::factorise(*camera, *size, lattice, view.sampling());
         shear::RenderStats stats;
         const auto& classification = classifier.classify(*volume, tf, workers);
         const auto windows = shear::render(*volume, classification, factorisation, workers, &stats);

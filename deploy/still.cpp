@@ -23,6 +23,7 @@ Still::Still(wire::Address server, ViewOptions options, view::TransferFunction t
     view_.size = size;
     view_.tf = std::move(tf);
     view_.quality = options_.quality_value();
+    view_.level_of_detail = options_.level_of_detail();
 }
 
 std::vector<wire::NetEffect> Still::start(wire::Time now) {

@@ -2,6 +2,7 @@
 
 #include "deploy/commands.h"
 #include "deploy/target.h"
+#include "deploy/view_options.h"
 #include "protocol/daemon/runtime.h"
 
 namespace shearwater::deploy {
@@ -12,6 +13,7 @@ const std::string program = "shearwater view";
 struct Flags {
     TargetOptions target;
     std::string tf_file;
+    std::string lod = "on";
 };
 
 // Starts the window and waits until it closes; a local tree is kept alive meanwhile.
@@ -24,6 +26,7 @@ base::Result<int> view(const Flags& flags) {
         return target.error();
     }
     std::vector<std::string> arguments{"--connect", wire::to_string(target->server)};
+    arguments.insert(arguments.end(), {"--lod", flags.lod});
     if (!flags.tf_file.empty()) {
         arguments.insert(arguments.end(), {"--tf", flags.tf_file});
     }
@@ -55,6 +58,7 @@ base::Result<int> view(const Flags& flags) {
 Run add_view(CLI::App& app) {
     auto flags = std::make_shared<Flags>();
     app.add_option("--tf", flags->tf_file, "transfer function to begin with, a TOML file");
+    add_lod(app, flags->lod);
     flags->target.add_to(app);
     return [flags] {
         const auto status = view(*flags);

@@ -30,6 +30,14 @@ void ViewOptions::add_to(CLI::App& app) {
         ->check(CLI::IsMember({"draft", "normal", "high"}))
         ->capture_default_str()
         ->group(group);
+    add_lod(app, lod, group);
+}
+
+void add_lod(CLI::App& app, std::string& lod, const std::string& group) {
+    app.add_option("--lod", lod, "off: every voxel counts, however small in the picture")
+        ->check(CLI::IsMember({"on", "off"}))
+        ->capture_default_str()
+        ->group(group);
 }
 
 base::Result<view::ImageSize> ViewOptions::image_size() const {

@@ -1,5 +1,5 @@
 #pragma once
-// The options of a still picture: camera, size, transfer function, quality.
+// The options of a still picture: camera, size, transfer function, quality, level of detail.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -12,6 +12,9 @@
 
 namespace shearwater::deploy {
 
+// --lod on|off.
+void add_lod(CLI::App& app, std::string& lod, const std::string& group = "Options");
+
 struct ViewOptions {
     view::Orbit orbit;
     bool parallel = false;
@@ -20,6 +23,7 @@ struct ViewOptions {
     std::string size = "512x512";
     std::string tf_file;
     std::string quality = "normal";
+    std::string lod = "on";
 
     void add_to(CLI::App& app);
 
@@ -27,6 +31,8 @@ struct ViewOptions {
     base::Result<view::ImageSize> image_size() const;
     base::Result<view::TransferFunction> transfer_function() const;
     view::Quality quality_value() const;
+    bool level_of_detail() const { return lod == "on"; }
+    view::Sampling sampling() const { return view::sampling(quality_value(), level_of_detail()); }
     // The camera for a cube, checked.
     base::Result<view::Camera> camera(const view::Lattice& lattice) const;
 };

@@ -26,6 +26,7 @@ struct Wish {
     Viewpoint viewpoint;
     view::TransferFunction tf = view::default_transfer_function();
     view::ImageSize size;  // at most what view::validate allows
+    bool level_of_detail = true;
     bool operator==(const Wish&) const = default;
 };
 

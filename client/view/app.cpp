@@ -42,6 +42,7 @@ App::App(Window& window, Network& network, AppOptions options)
       options_(std::move(options)),
       desk_(window.fonts(), window.scale()) {
     desk_.wish.tf = options_.tf;
+    desk_.wish.level_of_detail = options_.level_of_detail;
     desk_.status.words = "Starting ...";
 }
 

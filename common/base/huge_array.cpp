@@ -1,8 +1,11 @@
 #include "common/base/huge_array.h"
 
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <new>
+
+#include "common/base/check.h"
 
 namespace shearwater::base {
 
@@ -23,6 +26,16 @@ HugeBytes::~HugeBytes() {
     if (data_ != nullptr) {
         munmap(data_, size_);
     }
+}
+
+void HugeBytes::shrink(std::size_t bytes) {
+    check(0 < bytes && bytes <= size_, "memory shrinks to a part of it");
+    const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    const auto pages = [page](std::size_t size) { return (size + page - 1) / page * page; };
+    if (pages(bytes) < pages(size_)) {
+        munmap(static_cast<std::byte*>(data_) + pages(bytes), pages(size_) - pages(bytes));
+    }
+    size_ = bytes;
 }
 
 }  // namespace shearwater::base

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "common/volume/levels.h"
+
 namespace shearwater::view {
 
 namespace {
@@ -53,16 +55,16 @@ Rect bounding(const Rect& a, const Rect& b) {
     return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
-Sampling sampling(Quality quality) {
+Sampling sampling(Quality quality, bool level_of_detail) {
     switch (quality) {
         case Quality::draft:
-            return {.resolution = 0.5};
+            return {.resolution = 0.5, .level_of_detail = level_of_detail};
         case Quality::high:
-            return {.resolution = 1.5, .slice_exponent = -1};
+            return {.resolution = 1.5, .slice_exponent = -1, .level_of_detail = level_of_detail};
         case Quality::normal:
             break;
     }
-    return {};
+    return {.level_of_detail = level_of_detail};
 }
 
 SliceMap Factorisation::slice_map(const Face& face, double w) const {
@@ -154,8 +156,8 @@ base::Status validate(const Factorisation& factorisation) {
     if (!finite(factorisation.eye) || !finite(factorisation.direction)) {
         return refuse("its eye or direction is not finite");
     }
-    if (factorisation.slice_exponent != 0 && factorisation.slice_exponent != -1) {
-        return refuse("its slices are neither a voxel apart nor half of one");
+    if (factorisation.slice_exponent < -1 || factorisation.slice_exponent > volume::coarsest_level(lattice.n)) {
+        return refuse("its slices are closer than half a voxel, or of a level that the cube does not have");
     }
     if (factorisation.faces.size() > Factorisation::max_faces) {
         return refuse("it has more than six faces");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/view/factorisation.h"
+#include "common/volume/levels.h"
 
 namespace shearwater::view {
 
@@ -243,6 +244,53 @@ void plan_parallel(std::vector<Plan>& plans, const Factorisation& factorisation,
     add_plan(plans, face, seen, u, v, resolution);
 }
 
+// The distance along a face's axis of the nearest plane, `nearest` or beyond, where [0, last] meets what is seen
+// between two slopes by an eye at `eye`.
+double seen_from(double nearest, double eye, double least_slope, double greatest_slope, double last) {
+    // The line of the least slope is to be below `last` there, that of the greatest above 0.
+    if (eye + least_slope * nearest > last) {
+        nearest = least_slope < 0 ? (last - eye) / least_slope : nearest;
+    }
+    if (eye + greatest_slope * nearest < 0) {
+        nearest = greatest_slope > 0 ? -eye / greatest_slope : nearest;
+    }
+    return nearest;
+}
+
+// Voxels from one intermediate pixel to the next where they are fewest, on the nearest plane of the cube that a
+// face sees.
+double least_voxels_per_pixel(const Factorisation& factorisation, const Plan& plan) {
+    const Face& face = plan.face;
+    const double fewest = std::min(face.pitch.x, face.pitch.y);
+    if (factorisation.projection == Projection::parallel) {
+        return fewest;
+    }
+    const auto last = [&](int axis) { return static_cast<double>(factorisation.lattice.n[axis] - 1); };
+    const auto along = [&](double nearest, int axis, const Interval& slopes) {
+        // Slopes are those along the axis, whichever way the face looks: going against it turns them round.
+        const double eye = factorisation.eye[axis];
+        return face.sign > 0 ? seen_from(nearest, eye, slopes.lo, slopes.hi, last(axis))
+                             : seen_from(nearest, eye, -slopes.hi, -slopes.lo, last(axis));
+    };
+    const double eye = factorisation.eye[face.axis];
+    double nearest = std::max(0.0, face.sign > 0 ? -eye : eye - last(face.axis));
+    nearest = along(nearest, face.u_axis(), plan.range_u);
+    nearest = along(nearest, face.v_axis(), plan.range_v);
+    return fewest * nearest;
+}
+
+int level_of_detail(const Factorisation& factorisation, const std::vector<Plan>& plans) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Plan& plan : plans) {
+        least = std::min(least, least_voxels_per_pixel(factorisation, plan));
+    }
+    int level = 0;
+    while (level < volume::coarsest_level(factorisation.lattice.n) && std::ldexp(1.0, level + 1) <= least) {
+        ++level;
+    }
+    return level;
+}
+
 }  // namespace
 
 Factorisation factorise(const Camera& camera, const ImageSize& size, const Lattice& lattice,
@@ -262,6 +310,10 @@ Factorisation factorise(const Camera& camera, const ImageSize& size, const Latti
         plan_parallel(plans, factorisation, rays, picture, sampling.resolution);
     }
     lay_all(plans, factorisation);
+    if (sampling.level_of_detail) {
+        const int level = level_of_detail(factorisation, plans);
+        factorisation.slice_exponent = level > 0 ? level : sampling.slice_exponent;
+    }
     return factorisation;
 }
 

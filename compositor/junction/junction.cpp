@@ -1,5 +1,6 @@
 #include "compositor/junction/junction.h"
 
+#include "common/volume/levels.h"
 #include "protocol/wire/convert.h"
 
 namespace shearwater::junction {
@@ -62,9 +63,12 @@ Effects Junction::handle(MergeDone done) {
 void Junction::on_assigned(Effects& effects) {
     const pb::Assign& assign = *member_.assignment();
     std::vector<node::Branch::ChildSpec> children;
+    const auto lattice = wire::lattice_from(assign.cube().lattice());
     for (const pb::Child& child : assign.children()) {
         if (const auto box = wire::box_from(child.box())) {
-            children.push_back({static_cast<int>(child.place()), *box});
+            const bool in_cube = lattice && volume::whole(lattice->n).contains(*box);
+            children.push_back({static_cast<int>(child.place()), *box,
+                                in_cube ? volume::nodes_to_make(*box, lattice->n).front() : *box});
         }
     }
     branch_.configure(assign.epoch(), children, effects.net);

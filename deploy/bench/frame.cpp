@@ -59,6 +59,8 @@ Record row(const Flags& flags, const Case& drawn, const InProcess& cube, const s
         .count("threads", static_cast<std::uint64_t>(cube.threads()))
         .aside("image", flags.common.image)
         .aside("quality", flags.common.quality)
+        .aside("lod", flags.common.lod)
+        .count("level", static_cast<std::uint64_t>(frames.front().level))
         .aside("frames", static_cast<double>(frames.size()))
         .number("median_s", all.total.median, 5)
         .number("min_s", all.total.least, 5)
@@ -97,7 +99,7 @@ base::Status draw_axes(const Flags& flags, const Case& drawn, InProcess& cube,
     for (int i = -1; i < flags.common.frames; ++i) {
         for (int steps = 0; steps < 3; ++steps) {
             const FrameTimes times =
-                cube.draw(along_axis(*camera, steps), size, view.quality_value(), drawn.tf);
+                cube.draw(along_axis(*camera, steps), size, view.sampling(), drawn.tf);
             if (i >= 0) {
                 frames.at(static_cast<std::size_t>(steps)).push_back(times);
             }
@@ -176,6 +178,7 @@ Run add_frame(CLI::App& app) {
     flags->common.add_frames(app);
     flags->common.add_image(app);
     flags->common.add_quality(app);
+    flags->common.add_lod(app);
     flags->common.add_threads(app);
     flags->common.add_json(app);
     flags->cube.add_to(app);

@@ -86,11 +86,11 @@ base::Result<InProcess> InProcess::load(const options::CubeOptions& options, int
     return InProcess(lattice, std::move(workers), *std::move(bricks));
 }
 
-FrameTimes InProcess::draw(const view::Camera& camera, const view::ImageSize& size, view::Quality quality,
-                           const view::TransferFunction& tf) {
+FrameTimes InProcess::draw(const view::Camera& camera, const view::ImageSize& size,
+                           const view::Sampling& sampling, const view::TransferFunction& tf) {
     FrameTimes times;
     Clock clock;
-    const auto factorisation = view::factorise(camera, size, lattice_, view::sampling(quality));
+    const auto factorisation = view::factorise(camera, size, lattice_, sampling);
     times.factorise = clock.lap();
     shear::RenderStats stats;
     const auto& classification = classifier_.classify(bricks_, tf, *workers_);
@@ -102,6 +102,7 @@ FrameTimes InProcess::draw(const view::Camera& camera, const view::ImageSize& si
     coded.resize(image::encode_rle(picture.pixels(), coded));
     times.encode = clock.lap();
     times.samples = stats.samples;
+    times.level = factorisation.level();
     return times;
 }
 
@@ -119,7 +120,7 @@ base::Result<std::vector<FrameTimes>> InProcess::draw_path(deploy::ViewOptions v
         if (!camera) {
             return camera.error();
         }
-        const FrameTimes frame = draw(*camera, *size, view.quality_value(), tf);
+        const FrameTimes frame = draw(*camera, *size, view.sampling(), tf);
         if (i >= 0) {
             times.push_back(frame);
         }

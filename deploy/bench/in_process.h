@@ -20,6 +20,7 @@ namespace shearwater::bench {
 struct FrameTimes {
     double factorise = 0, render = 0, warp = 0, encode = 0;  // seconds
     std::uint64_t samples = 0;
+    int level = 0;  // of detail
     double total() const { return factorise + render + warp + encode; }
 };
 
@@ -43,7 +44,7 @@ class InProcess {
     base::Workers& workers() const { return *workers_; }
     const shear::BrickVolume& bricks() const { return bricks_; }
 
-    FrameTimes draw(const view::Camera& camera, const view::ImageSize& size, view::Quality quality,
+    FrameTimes draw(const view::Camera& camera, const view::ImageSize& size, const view::Sampling& sampling,
                     const view::TransferFunction& tf);
     // One frame unmeasured, then `frames` along the path that `view` begins.
     base::Result<std::vector<FrameTimes>> draw_path(deploy::ViewOptions view, int frames,

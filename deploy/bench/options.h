@@ -15,6 +15,7 @@ struct Options {
     int threads = 0;
     std::string image = "512x512";
     std::string quality = "normal";
+    std::string lod = "on";
     std::string json;
 
     void add_json(CLI::App& app);
@@ -22,8 +23,9 @@ struct Options {
     void add_frames(CLI::App& app);
     void add_image(CLI::App& app);
     void add_quality(CLI::App& app);
+    void add_lod(CLI::App& app);
 
-    // first_view with these options' image and quality, checked.
+    // first_view with these options' image, quality and level of detail, checked.
     base::Result<deploy::ViewOptions> view(std::int64_t edge) const;
 };
 

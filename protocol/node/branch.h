@@ -23,6 +23,7 @@ class Branch {
     struct ChildSpec {
         int place;
         volume::Box box;
+        volume::Box reads = box;  // of which its leaves may ask for voxels
         bool operator==(const ChildSpec&) const = default;
     };
 

@@ -41,6 +41,7 @@ struct View {
     view::TransferFunction tf;
     view::Quality quality = view::Quality::normal;
     bool deflate = false;
+    bool level_of_detail = true;
 };
 pb::SetView to_wire(const View& view);
 Parsed<View> view_from(const pb::SetView& view);

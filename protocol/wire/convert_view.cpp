@@ -1,5 +1,6 @@
 // Cameras, transfer functions, factorisations and a client's request made of them.
 
+#include "common/volume/levels.h"
 #include "protocol/wire/convert.h"
 #include "protocol/wire/convert_fields.h"
 
@@ -238,8 +239,8 @@ Parsed<view::Factorisation> factorisation_from(const pb::Factorisation& factoris
     if (!lattice) {
         return lattice.error();
     }
-    if (factorisation.slice_exponent() != 0 && factorisation.slice_exponent() != -1) {
-        return invalid("factorisation.slice_exponent: 0 or -1 is wanted");
+    if (factorisation.slice_exponent() < -1 || factorisation.slice_exponent() > volume::max_level) {
+        return invalid("factorisation.slice_exponent: -1 to " + std::to_string(volume::max_level) + " is wanted");
     }
     auto faces = faces_from(factorisation);
     if (!faces) {
@@ -269,6 +270,7 @@ pb::SetView to_wire(const View& view) {
     *to.mutable_transfer_function() = to_wire(view.tf);
     to.set_quality(to_wire(view.quality));
     to.set_deflate(view.deflate);
+    to.set_exact(!view.level_of_detail);
     return to;
 }
 
@@ -299,7 +301,8 @@ Parsed<View> view_from(const pb::SetView& view) {
                 .size = size,
                 .tf = std::move(*tf),
                 .quality = *quality,
-                .deflate = view.deflate()};
+                .deflate = view.deflate(),
+                .level_of_detail = !view.exact()};
 }
 
 }  // namespace shearwater::wire

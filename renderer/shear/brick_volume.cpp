@@ -6,8 +6,9 @@
 #include <new>
 #include <thread>
 
+#include "common/volume/levels.h"
 #include "common/volume/quantiser.h"
-#include "renderer/shear/kernel.h"
+#include "renderer/shear/coarsen.h"
 #include "renderer/shear/survey.h"
 
 namespace shearwater::shear {
@@ -33,14 +34,6 @@ base::Status check(const Box& box, const Index3& n) {
     return {};
 }
 
-// A little more than so many codes, if need be: rows or planes that lie a large power of two apart would
-// compete for the same few lines of the caches.
-std::int64_t padded(std::int64_t codes, std::int64_t code_bytes) {
-    constexpr std::int64_t vector = 16, line = 64, far = 512;
-    const std::int64_t bytes = (codes * code_bytes + vector - 1) / vector * vector;
-    return (bytes % far == 0 ? bytes + line : bytes) / code_bytes;
-}
-
 // The planes lo to hi of a box cut into chunks of at most `room` voxels (one at the least): whole planes
 // where they fit, else rows, else pieces of a row. Every voxel is in one of them.
 std::vector<Box> chunks_of(const Box& box, std::int64_t room) {
@@ -63,22 +56,6 @@ std::vector<Box> chunks_of(const Box& box, std::int64_t room) {
 
 }  // namespace
 
-void CodeRange::add(const CodeRange& other) {
-    min = std::min(min, other.min);
-    max = std::max(max, other.max);
-    blanks = blanks || other.blanks;
-}
-
-CodeGrid::CodeGrid(const Box& box, std::int64_t edge) : edge_(edge) {
-    std::int64_t count = 1;
-    for (std::size_t a = 0; a < 3; ++a) {
-        first_[a] = box.lo[a] / edge;
-        counts_[a] = (box.hi[a] - 1) / edge - first_[a] + 1;
-        count *= counts_[a];
-    }
-    ranges_.resize(static_cast<std::size_t>(count));
-}
-
 base::Result<BrickVolume> BrickVolume::load(volume::VoxelSource& source, const Box& box, const Index3& n,
                                             const volume::Mapping& mapping, base::Workers& workers,
                                             const volume::Progress& progress, const std::stop_token& stop,
@@ -90,23 +67,19 @@ base::Result<BrickVolume> BrickVolume::load(volume::VoxelSource& source, const B
     volume.box_ = box;
     volume.n_ = n;
     volume.mapping_ = mapping;
-    const std::int64_t code_bytes = mapping.bits / 8;
-    const std::int64_t row = padded(box.planes(0), code_bytes);
-    const std::int64_t plane = padded(row * box.planes(1), code_bytes);
-    volume.strides_ = {1, row, plane};
     try {
-        const auto codes = static_cast<std::size_t>(plane * box.planes(2)) + voxel_padding;
-        volume.bricks_ = CodeGrid(box, edge);
-        volume.micro_bricks_ = CodeGrid(box, micro_edge);
-        base::Status filled;
-        if (mapping.bits == 8) {
-            volume.codes8_ = base::HugeArray<std::uint8_t>(codes);
-            filled = volume.fill(volume.codes8_, source, workers, progress, stop, slab_bytes);
-        } else {
-            volume.codes16_ = base::HugeArray<std::uint16_t>(codes);
-            filled = volume.fill(volume.codes16_, source, workers, progress, stop, slab_bytes);
+        CodeVolume voxels(volume::nodes_to_make(box, n).front(), mapping.bits);
+        const auto filled = mapping.bits == 8 ? fill<std::uint8_t>(voxels, mapping, source, workers, progress,
+                                                                   stop, slab_bytes)
+                                              : fill<std::uint16_t>(voxels, mapping, source, workers, progress,
+                                                                    stop, slab_bytes);
+        if (!filled) {
+            return filled.error();
         }
-        return filled ? base::Result<BrickVolume>(std::move(volume)) : filled.error();
+        if (!volume.build(std::move(voxels), workers, stop)) {
+            return refuse(base::Code::cancelled, box, "stopped").error();
+        }
+        return volume;
     } catch (const std::bad_alloc&) {
         return refuse(base::Code::too_large, box, "there is not enough memory for it").error();
     }
@@ -174,17 +147,18 @@ base::Status read_chunks(volume::VoxelSource& source, const Box& box, std::size_
 }  // namespace
 
 template <class Code>
-base::Status BrickVolume::fill(base::HugeArray<Code>& codes, volume::VoxelSource& source,
+base::Status BrickVolume::fill(CodeVolume& voxels, const volume::Mapping& mapping, volume::VoxelSource& source,
                                base::Workers& workers, const volume::Progress& progress,
                                const std::stop_token& stop, std::size_t slab_bytes) {
-    const volume::Quantiser quantiser(mapping_);
-    const auto place = [&](const Index3& p) { return offset(p); };
+    const volume::Quantiser quantiser(mapping);
+    const std::span<Code> codes = voxels.codes<Code>();
+    const auto place = [&](const Index3& p) { return voxels.offset(p); };
     const bool alone = !source.concurrent();
-    const base::Status read = read_chunks(
-        source, box_, slab_bytes, workers, progress, stop,
+    return read_chunks(
+        source, voxels.box(), slab_bytes, workers, progress, stop,
         [&](const Box& chunk, std::span<const float> values) {
             if (!alone) {
-                quantise<Code>(quantiser, values, chunk, codes.span(), place);
+                quantise<Code>(quantiser, values, chunk, codes, place);
                 return;
             }
             // The reading thread hands out what it has read, plane by plane.
@@ -193,31 +167,38 @@ base::Status BrickVolume::fill(base::HugeArray<Code>& codes, volume::VoxelSource
                 Box slice = chunk;
                 slice.lo[2] = slice.hi[2] = chunk.lo[2] + z;
                 quantise<Code>(quantiser, values.subspan(static_cast<std::size_t>(z) * plane, plane), slice,
-                               codes.span(), place);
+                               codes, place);
             });
         });
-    if (!read) {
-        return read;
+}
+
+bool BrickVolume::build(CodeVolume voxels, base::Workers& workers, const std::stop_token& stop) {
+    const std::vector<Box> boxes = volume::nodes_to_make(box_, n_);
+    levels_.push_back(std::move(voxels));
+    for (std::size_t level = 0; level < boxes.size(); ++level) {
+        const int number = static_cast<int>(level);
+        if (level + 1 < boxes.size()) {
+            levels_.emplace_back(boxes[level + 1], mapping_.bits);
+            if (!coarsen(levels_[level], levels_[level + 1], number + 1, n_, workers, stop)) {
+                return false;
+            }
+        }
+        levels_[level].crop(volume::nodes_of(box_, number));
+        if (!levels_[level].survey(workers, stop)) {
+            return false;
+        }
     }
-    const CodesOfBox<Code> all{codes.span().data(), box_, stride(1), stride(2)};
-    if (!survey(all, micro_bricks_, workers, stop)) {
-        return refuse(base::Code::cancelled, box_, "stopped");
-    }
-    summarise(micro_bricks_, bricks_);
-    return {};
+    bricks_ = CodeGrid(box_, edge);
+    summarise(levels_.front().micro_bricks(), bricks_);
+    return true;
 }
 
 std::size_t BrickVolume::bytes() const {
-    return codes8_.span().size_bytes() + codes16_.span().size_bytes() + bricks_.ranges().size_bytes() +
-           micro_bricks_.ranges().size_bytes();
-}
-
-std::size_t BrickVolume::offset(const Index3& p) const {
-    std::size_t offset = 0;
-    for (std::size_t a = 0; a < 3; ++a) {
-        offset += static_cast<std::size_t>((p[a] - box_.lo[a]) * strides_[a]);
+    std::size_t bytes = bricks_.ranges().size_bytes();
+    for (const CodeVolume& level : levels_) {
+        bytes += level.bytes();
     }
-    return offset;
+    return bytes;
 }
 
 }  // namespace shearwater::shear

@@ -93,6 +93,13 @@ SliceMap FacePlan::slice_map(double w) const {
     return turned() ? SliceMap{map.v_offset, map.v_scale, map.u_offset, map.u_scale} : map;
 }
 
+SliceMap FacePlan::node_map(double place) const {
+    const double nodes_per_voxel = std::ldexp(1.0, -level());
+    const SliceMap map = slice_map(place / nodes_per_voxel);
+    return {map.u_offset * nodes_per_voxel, map.u_scale * nodes_per_voxel, map.v_offset * nodes_per_voxel,
+            map.v_scale * nodes_per_voxel};
+}
+
 void FacePlan::steps(int i, int j, std::span<float> out) const {
     if (!perspective()) {
         std::fill(out.begin(), out.end(), static_cast<float>(factorisation_.step(face_, i, j)));

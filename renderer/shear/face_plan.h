@@ -7,6 +7,7 @@
 // slow axis. All rectangles and pixels here are turned the same way: x and i along the fast axis, y and j
 // along the slow one.
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -41,6 +42,11 @@ class FacePlan {
 
     // Where voxels of the plane at w lie under pixels, fast as u and slow as v.
     view::SliceMap slice_map(double w) const;
+    // The level of detail that is drawn, and the same in its nodes: where slice k lies, and where nodes of a plane
+    // that lies at `place` of them lie under pixels.
+    int level() const { return factorisation_.level(); }
+    double node_place(std::int64_t k) const { return std::ldexp(factorisation_.slice_place(k), -level()); }
+    view::SliceMap node_map(double place) const;
     // World lengths between two slices of the rays of pixels of row j from i on.
     void steps(int i, int j, std::span<float> out) const;
     // The pixels whose rays meet slice k inside the cube; none where k is behind the eye.

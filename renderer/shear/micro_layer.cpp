@@ -11,8 +11,9 @@ namespace {
 // are in order of distance, and those on different sides are never on one ray.
 double distance(const FacePlan& plan, const CodeGrid& grid, int axis, const MicroRun& run) {
     const view::Factorisation& factorisation = plan.factorisation();
-    const auto lo = static_cast<double>((grid.first(axis) + run.first) * grid.edge());
-    const auto hi = static_cast<double>((grid.first(axis) + run.end) * grid.edge());
+    const std::int64_t edge = grid.edge() << plan.level();
+    const auto lo = static_cast<double>((grid.first(axis) + run.first) * edge);
+    const auto hi = static_cast<double>((grid.first(axis) + run.end) * edge);
     if (factorisation.projection == view::Projection::parallel) {
         return factorisation.direction[axis] < 0 ? -lo : lo;
     }
@@ -21,12 +22,12 @@ double distance(const FacePlan& plan, const CodeGrid& grid, int axis, const Micr
 
 }  // namespace
 
-MicroLayer::MicroLayer(const BrickVolume& volume, const Classification& classification, const FacePlan& plan,
+MicroLayer::MicroLayer(const CodeVolume& codes, const Classification& classification, const FacePlan& plan,
                        std::int64_t layer)
-    : plan_(plan), grid_(volume.micro_bricks()) {
+    : plan_(plan), grid_(codes.micro_bricks()) {
     const volume::Index3& counts = grid_.counts();
     const volume::Index3 strides{1, counts[0], counts[0] * counts[1]};
-    first_ = classification.micro_bricks.data() + layer * strides[static_cast<std::size_t>(plan.face().axis)];
+    first_ = classification.micro_bricks[static_cast<std::size_t>(plan.level())].data() + layer * strides[static_cast<std::size_t>(plan.face().axis)];
     fast_stride_ = strides[static_cast<std::size_t>(plan.fast_axis())];
     slow_stride_ = strides[static_cast<std::size_t>(plan.slow_axis())];
 }

@@ -17,7 +17,7 @@ struct MicroRun {
 class MicroLayer {
   public:
     // `layer` counts along the principal axis from the sub-volume's first.
-    MicroLayer(const BrickVolume& volume, const Classification& classification, const FacePlan& plan,
+    MicroLayer(const CodeVolume& codes, const Classification& classification, const FacePlan& plan,
                std::int64_t layer);
 
     Content at(std::int64_t fast, std::int64_t slow) const {

@@ -52,8 +52,8 @@ class IdleTiles {
 };
 
 template <class Code>
-void render_window(Frame& frame, std::span<const Code> codes, const FacePlan& plan, Window& window,
-                   base::Workers& workers, const std::stop_token& stop) {
+void render_window(Frame& frame, const FacePlan& plan, Window& window, base::Workers& workers,
+                   const std::stop_token& stop) {
     const Rect& whole = plan.window();
     const int across = (whole.width() + Tile<Code>::width - 1) / Tile<Code>::width;
     const int down = (whole.height() + Tile<Code>::height - 1) / Tile<Code>::height;
@@ -62,7 +62,7 @@ void render_window(Frame& frame, std::span<const Code> codes, const FacePlan& pl
         const int x = whole.x0 + static_cast<int>(n % across) * Tile<Code>::width;
         const int y = whole.y0 + static_cast<int>(n / across) * Tile<Code>::height;
         auto tile = idle.take([&] {
-            return std::make_unique<Tile<Code>>(frame.volume, codes, frame.classification, plan, frame.met);
+            return std::make_unique<Tile<Code>>(frame.volume, frame.classification, plan, frame.met);
         });
         tile->render(intersection(whole, {x, y, x + Tile<Code>::width, y + Tile<Code>::height}));
         tile->store(window);
@@ -87,6 +87,7 @@ std::vector<Window> render(const BrickVolume& volume, const Classification& clas
                            const view::Factorisation& factorisation, base::Workers& workers,
                            RenderStats* stats, const std::stop_token& stop) {
     base::check(factorisation.lattice.n == volume.cube(), "a factorisation is that of the volume's cube");
+    base::check(factorisation.level() < volume.levels(), "a factorisation keeps to the cube's levels");
     Frame frame{.volume = volume,
                 .classification = classification,
                 .met = BricksMet(volume.bricks().ranges().size())};
@@ -101,8 +102,8 @@ std::vector<Window> render(const BrickVolume& volume, const Classification& clas
                            .rect = rect,
                            .pixels = image::Image<image::RgbaF>(rect.width(), rect.height())});
         volume.mapping().bits == 8
-            ? render_window(frame, volume.codes8(), plan, windows.back(), workers, stop)
-            : render_window(frame, volume.codes16(), plan, windows.back(), workers, stop);
+            ? render_window<std::uint8_t>(frame, plan, windows.back(), workers, stop)
+            : render_window<std::uint16_t>(frame, plan, windows.back(), workers, stop);
     }
     if (stats != nullptr) {
         *stats = count(frame);

@@ -5,7 +5,7 @@
 #include <stop_token>
 
 #include "common/base/workers.h"
-#include "renderer/shear/brick_volume.h"
+#include "renderer/shear/code_volume.h"
 
 namespace shearwater::shear {
 

@@ -13,7 +13,7 @@ using view::SliceMap;
 
 namespace {
 
-constexpr std::int64_t micro_edge = BrickVolume::micro_edge;
+constexpr std::int64_t micro_edge = CodeVolume::micro_edge;
 
 // Extinctions of nodes that differ by less than these halvings of light a step are not told apart: as much as
 // one opacity in a hundred, at most half of which a sample is wrong by, this way or that.
@@ -44,13 +44,14 @@ PixelRange pixels_within(const PixelRange& range, double offset, double scale, d
 }  // namespace
 
 template <class Code>
-Tile<Code>::Tile(const BrickVolume& volume, std::span<const Code> codes, const Classification& classification,
-                 const FacePlan& plan, BricksMet& met)
-    : volume_(volume),
+Tile<Code>::Tile(const BrickVolume& volume, const Classification& classification, const FacePlan& plan,
+                 BricksMet& met)
+    : bricks_(volume.bricks()),
+      codes_(volume.level(plan.level())),
       classification_(classification),
       plan_(plan),
       met_(met),
-      voxels_(volume, codes, plan),
+      voxels_(codes_, plan),
       planes_(std::make_unique<Planes>()) {}
 
 template <class Code>
@@ -122,16 +123,16 @@ bool Tile<Code>::opaque() const {
 template <class Code>
 std::int64_t Tile<Code>::micro_layer(std::int64_t k) const {
     const int axis = plan_.face().axis;
-    const auto plane = static_cast<std::int64_t>(plan_.factorisation().slice_place(k));
-    const std::int64_t cell = std::min(plane, volume_.box().hi[static_cast<std::size_t>(axis)] - 1);
-    return cell / micro_edge - volume_.micro_bricks().first(axis);
+    const auto plane = static_cast<std::int64_t>(plan_.node_place(k));
+    const std::int64_t cell = std::min(plane, codes_.box().hi[static_cast<std::size_t>(axis)] - 1);
+    return cell / micro_edge - codes_.micro_bricks().first(axis);
 }
 
 // With the pixels of the tile that the sub-volume owns on it, counted from the tile's first; its voxels are
 // found later.
 template <class Code>
 Slice<Code> Tile<Code>::slice_of(std::int64_t k) const {
-    const SliceMap map = plan_.slice_map(plan_.factorisation().slice_place(k));
+    const SliceMap map = plan_.node_map(plan_.node_place(k));
     const Rect pixels = intersection(rect_, plan_.owned(k));
     return {
         .voxels = nullptr,
@@ -147,7 +148,7 @@ Slice<Code> Tile<Code>::slice_of(std::int64_t k) const {
 // The voxels that the samples of some slices lie between.
 template <class Code>
 VoxelRegion Tile<Code>::region_of(Slices slices, std::span<const std::int64_t> numbers) const {
-    const volume::Box& box = volume_.box();
+    const volume::Box& box = codes_.box();
     const std::array<int, 3> axes{plan_.fast_axis(), plan_.slow_axis(), plan_.face().axis};
     std::array<std::pair<double, double>, 3> ends;
     ends.fill({1e300, -1e300});
@@ -161,7 +162,7 @@ VoxelRegion Tile<Code>::region_of(Slices slices, std::span<const std::int64_t> n
             ends_of(slice.fast_offset, slice.fast_scale, pixels.x0 + rect_.x0, pixels.x1 + rect_.x0));
         add(ends[1],
             ends_of(slice.slow_offset, slice.slow_scale, pixels.y0 + rect_.y0, pixels.y1 + rect_.y0));
-        const double w = plan_.factorisation().slice_place(numbers[n]);
+        const double w = plan_.node_place(numbers[n]);
         add(ends[2], {w, w});
     }
     VoxelRegion region;
@@ -180,9 +181,9 @@ VoxelRegion Tile<Code>::region_of(Slices slices, std::span<const std::int64_t> n
 // Slices that lie in one layer of micro-bricks, each with some pixels.
 template <class Code>
 void Tile<Code>::render_slices(Slices slices, std::span<const std::int64_t> numbers) {
-    const MicroLayer layer(volume_, classification_, plan_, micro_layer(numbers.front()));
+    const MicroLayer layer(codes_, classification_, plan_, micro_layer(numbers.front()));
     const VoxelRegion region = region_of(slices, numbers);
-    const CodeGrid& grid = volume_.micro_bricks();
+    const CodeGrid& grid = codes_.micro_bricks();
     const std::array<int, 2> axes{plan_.fast_axis(), plan_.slow_axis()};
     const auto micro_run = [&](std::size_t n) {
         const std::int64_t first = grid.first(axes[n]);
@@ -252,7 +253,7 @@ void Tile<Code>::render_part(Slices slices, std::span<const std::int64_t> number
                     .count = static_cast<int>(slices.size()),
                     .slices = {}};
     for (std::size_t n = 0; n < slices.size(); ++n) {
-        const double w = plan_.factorisation().slice_place(numbers[n]);
+        const double w = plan_.node_place(numbers[n]);
         const auto plane = static_cast<std::int64_t>(w);
         Slice<Code>& slice = slab.slices[n];
         slice = slices[n];
@@ -274,7 +275,7 @@ VoxelRegion Tile<Code>::between_planes(std::int64_t lo, std::int64_t hi) const {
     std::array<std::pair<double, double>, 2> ends;
     ends.fill({1e300, -1e300});
     for (const std::int64_t w : {lo, hi}) {
-        const SliceMap map = plan_.slice_map(static_cast<double>(w));
+        const SliceMap map = plan_.node_map(static_cast<double>(w));
         const auto add = [](std::pair<double, double>& to, const std::pair<double, double>& more) {
             to = {std::min(to.first, more.first), std::max(to.second, more.second)};
         };
@@ -283,8 +284,8 @@ VoxelRegion Tile<Code>::between_planes(std::int64_t lo, std::int64_t hi) const {
     }
     VoxelRegion region{{0, 0, lo}, {0, 0, hi}};
     for (std::size_t n = 0; n < 2; ++n) {
-        const auto first = static_cast<double>(volume_.box().lo[static_cast<std::size_t>(axes[n])]);
-        const auto last = static_cast<double>(volume_.box().hi[static_cast<std::size_t>(axes[n])]);
+        const auto first = static_cast<double>(codes_.box().lo[static_cast<std::size_t>(axes[n])]);
+        const auto last = static_cast<double>(codes_.box().hi[static_cast<std::size_t>(axes[n])]);
         region.lo[n] = static_cast<std::int64_t>(std::clamp(std::floor(ends[n].first), first, last));
         region.hi[n] = static_cast<std::int64_t>(std::clamp(std::floor(ends[n].second) + 1, first, last));
     }
@@ -297,8 +298,8 @@ template <class Code>
 VoxelRegion Tile<Code>::with_block(const VoxelRegion& region) const {
     constexpr std::int64_t block = 2 * micro_edge;
     const auto axis = static_cast<std::size_t>(plan_.face().axis);
-    const std::int64_t lo = std::max(region.lo[2] / block * block, volume_.box().lo[axis]);
-    const std::int64_t hi = std::max(region.hi[2], std::min(lo + block - 1, volume_.box().hi[axis]));
+    const std::int64_t lo = std::max(region.lo[2] / block * block, codes_.box().lo[axis]);
+    const std::int64_t hi = std::max(region.hi[2], std::min(lo + block - 1, codes_.box().hi[axis]));
     VoxelRegion more = between_planes(lo, hi);
     for (std::size_t n = 0; n < 2; ++n) {
         more.lo[n] = std::min(more.lo[n], region.lo[n]);
@@ -318,7 +319,7 @@ VoxelRegion Tile<Code>::behind(const VoxelRegion& region) const {
     const bool adjacent = axis == 0;
     const std::int64_t away = plan_.face().sign * (adjacent ? planes_of_line : micro_edge);
     const auto plane = [&](std::int64_t w) {
-        return std::clamp(w + away, volume_.box().lo[axis], volume_.box().hi[axis]);
+        return std::clamp(w + away, codes_.box().lo[axis], codes_.box().hi[axis]);
     };
     VoxelRegion next = between_planes(plane(region.lo[2]), plane(region.hi[2]));
     if (adjacent) {
@@ -332,21 +333,23 @@ VoxelRegion Tile<Code>::behind(const VoxelRegion& region) const {
 
 template <class Code>
 void Tile<Code>::note_met(const VoxelRegion& region) {
-    const CodeGrid& bricks = volume_.bricks();
-    const std::array<int, 3> axes{plan_.fast_axis(), plan_.slow_axis(), plan_.face().axis};
+        const std::array<int, 3> axes{plan_.fast_axis(), plan_.slow_axis(), plan_.face().axis};
     volume::Index3 first, last;
     for (std::size_t n = 0; n < 3; ++n) {
         const auto a = static_cast<std::size_t>(axes[n]);
-        first[a] = region.lo[n] / bricks.edge() - bricks.first(axes[n]);
-        last[a] =
-            std::min((region.hi[n] - 1) / bricks.edge() - bricks.first(axes[n]), bricks.counts()[a] - 1);
-        first[a] = std::min(first[a], last[a]);
+        // A coarse level's nodes may lie outside the box.
+        const auto brick_of = [&](std::int64_t voxel) {
+            return std::clamp<std::int64_t>(voxel / bricks_.edge() - bricks_.first(axes[n]), 0,
+                                            bricks_.counts()[a] - 1);
+        };
+        first[a] = brick_of(region.lo[n] << plan_.level());
+        last[a] = brick_of((region.hi[n] << plan_.level()) - 1);
     }
     volume::Index3 at;
     for (at[2] = first[2]; at[2] <= last[2]; ++at[2]) {
         for (at[1] = first[1]; at[1] <= last[1]; ++at[1]) {
             for (at[0] = first[0]; at[0] <= last[0]; ++at[0]) {
-                const std::size_t brick = bricks.index(at);
+                const std::size_t brick = bricks_.index(at);
                 if (classification_.opaque[brick] != 0) {
                     met_[brick].store(1, std::memory_order_relaxed);
                 }

@@ -29,8 +29,7 @@ class Tile {
     static constexpr int height = tallest_tile;
 
     // All have to outlive it.
-    Tile(const BrickVolume& volume, std::span<const Code> codes, const Classification& classification,
-         const FacePlan& plan, BricksMet& met);
+    Tile(const BrickVolume& volume, const Classification& classification, const FacePlan& plan, BricksMet& met);
 
     // Renders the pixels of a rectangle of at most width x height, from nothing.
     void render(const view::Rect& rect);
@@ -65,7 +64,8 @@ class Tile {
         return static_cast<std::size_t>((j - rect_.y0) * stride + i - rect_.x0);
     }
 
-    const BrickVolume& volume_;
+    const CodeGrid& bricks_;
+    const CodeVolume& codes_;  // of the level that is drawn
     const Classification& classification_;
     const FacePlan& plan_;
     BricksMet& met_;

@@ -17,9 +17,9 @@ bool VoxelRegion::contains(const VoxelRegion& inner) const {
 }
 
 template <class Code>
-TileVoxels<Code>::TileVoxels(const BrickVolume& volume, std::span<const Code> codes, const FacePlan& plan)
+TileVoxels<Code>::TileVoxels(const CodeVolume& volume, const FacePlan& plan)
     : volume_(volume),
-      codes_(codes),
+      codes_(volume.codes<Code>()),
       axes_{plan.fast_axis(), plan.slow_axis(), plan.face().axis},
       copied_{{0, 0, 0}, {-1, -1, -1}} {}
 

@@ -7,13 +7,13 @@
 #include <span>
 #include <vector>
 
-#include "renderer/shear/brick_volume.h"
+#include "renderer/shear/code_volume.h"
 #include "renderer/shear/face_plan.h"
 #include "renderer/shear/kernel.h"
 
 namespace shearwater::shear {
 
-// Voxels from lo to hi, both included, along a face's fast, slow and principal axes.
+// Nodes of the level that is drawn, from lo to hi, both included, along a face's fast, slow and principal axes.
 struct VoxelRegion {
     std::array<std::int64_t, 3> lo, hi;
 
@@ -24,7 +24,7 @@ template <class Code>
 class TileVoxels {
   public:
     // Both have to outlive it.
-    TileVoxels(const BrickVolume& volume, std::span<const Code> codes, const FacePlan& plan);
+    TileVoxels(const CodeVolume& volume, const FacePlan& plan);
 
     // Where the voxels of a region lie: that of plane w of the principal axis, first along the others, at
     // first + (w - region.lo[2]) * plane_stride, those along the fast axis adjacent.
@@ -40,7 +40,7 @@ class TileVoxels {
   private:
     void turn(const VoxelRegion& region);
 
-    const BrickVolume& volume_;
+    const CodeVolume& volume_;
     std::span<const Code> codes_;
     std::array<int, 3> axes_;
     std::vector<Code> copy_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/view/factorisation.h"
+#include "common/volume/levels.h"
 
 namespace shearwater::head {
 
@@ -12,7 +13,8 @@ using namespace std::chrono_literals;
 Head::Head(Roster roster, Limits limits) : roster_(std::move(roster)), limits_(limits) {
     std::vector<node::Branch::ChildSpec> children;
     for (const tree::Place child : roster_.plan().at(0).children) {
-        children.push_back({child, roster_.plan().at(child).box});
+        const volume::Box& box = roster_.plan().at(child).box;
+        children.push_back({child, box, volume::nodes_to_make(box, roster_.cube().lattice.n).front()});
     }
     std::vector<wire::NetEffect> none;
     branch_.configure(roster_.epoch(), children, none);
@@ -246,7 +248,8 @@ void Head::begin_frames(wire::LinkId client, Session& session, wire::Time now, E
         session.begun = now;
         const wire::View& view = *session.latest;
         const view::Factorisation factorisation =
-            view::factorise(view.camera, view.size, roster_.cube().lattice, view::sampling(view.quality));
+            view::factorise(view.camera, view.size, roster_.cube().lattice,
+                            view::sampling(view.quality, view.level_of_detail));
         pb::Render render;
         render.set_frame(++last_frame_);
         *render.mutable_factorisation() = wire::to_wire(factorisation);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/volume/levels.h"
 #include "tests/support/reference_cubes.h"
 
 namespace shearwater::shear {
@@ -35,12 +36,14 @@ class WatchedCube final : public volume::VoxelSource {
 };
 
 template <class Code>
-void expect_codes(const BrickVolume& volume, std::span<const Code> codes, const FloatCube& cube) {
+void expect_codes(const BrickVolume& volume, const FloatCube& cube) {
+    const CodeVolume& voxels = volume.level(0);
+    ASSERT_EQ(voxels.box(), volume.box());
     const Box& box = volume.box();
     for (std::int64_t z = box.lo[2]; z <= box.hi[2]; ++z) {
         for (std::int64_t y = box.lo[1]; y <= box.hi[1]; ++y) {
             for (std::int64_t x = box.lo[0]; x <= box.hi[0]; ++x) {
-                ASSERT_EQ(codes[volume.offset({x, y, z})],
+                ASSERT_EQ(voxels.codes<Code>()[voxels.offset({x, y, z})],
                           volume.mapping().code(static_cast<double>(cube.at(x, y, z))));
             }
         }
@@ -99,12 +102,14 @@ TEST(BrickVolume, HoldsEveryVoxelsCode) {
                 const auto volume =
                     BrickVolume::load(source, box, cube.n(), {.bits = bits}, workers, {}, {}, slab);
                 ASSERT_TRUE(volume.has_value());
-                EXPECT_EQ(source.total, static_cast<std::size_t>(box.voxels()));  // each voxel is read once
+                // Each voxel is read once.
+                EXPECT_EQ(source.total,
+                          static_cast<std::size_t>(volume::nodes_to_make(box, cube.n()).front().voxels()));
                 EXPECT_LE(source.largest * sizeof(float), std::max<std::size_t>(slab, sizeof(float)));
                 if (slab == 4000U || slab == 1U) {
-                    bits == 8 ? expect_codes(*volume, volume->codes8(), cube)
-                              : expect_codes(*volume, volume->codes16(), cube);
-                    expect_ranges(*volume, volume->micro_bricks(), cube);
+                    bits == 8 ? expect_codes<std::uint8_t>(*volume, cube)
+                              : expect_codes<std::uint16_t>(*volume, cube);
+                    expect_ranges(*volume, volume->level(0).micro_bricks(), cube);
                     expect_ranges(*volume, volume->bricks(), cube);
                 }
                 if (box.voxels() > 10000 && slab == 1U) {
@@ -125,8 +130,13 @@ TEST(BrickVolume, LoadsAtOnceWhatItLoadsInTurn) {
     WatchedCube in_turn(cube);
     const auto apart = BrickVolume::load(in_turn, box, cube.n(), {}, one);
     ASSERT_TRUE(together.has_value() && apart.has_value());
-    EXPECT_TRUE(std::ranges::equal(together->codes8(), apart->codes8()));
-    EXPECT_TRUE(std::ranges::equal(together->micro_bricks().ranges(), apart->micro_bricks().ranges()));
+    ASSERT_EQ(together->levels(), 3);
+    for (int level = 0; level < together->levels(); ++level) {
+        const CodeVolume& a = together->level(level);
+        const CodeVolume& b = apart->level(level);
+        EXPECT_TRUE(std::ranges::equal(a.codes<std::uint8_t>(), b.codes<std::uint8_t>())) << level;
+        EXPECT_TRUE(std::ranges::equal(a.micro_bricks().ranges(), b.micro_bricks().ranges())) << level;
+    }
 }
 
 TEST(BrickVolume, LaysBricksOnTheCubesGrid) {
@@ -134,16 +144,18 @@ TEST(BrickVolume, LaysBricksOnTheCubesGrid) {
     FloatCube cube = test::noise_cube({70, 41, 66});
     const auto volume = test::bricks_of(cube, {{20, 0, 32}, {69, 40, 65}}, workers);
     EXPECT_EQ(volume.bricks().counts(), (Index3{3, 2, 2}));
-    EXPECT_EQ(volume.micro_bricks().counts(), (Index3{7, 5, 5}));
+    EXPECT_EQ(volume.level(0).micro_bricks().counts(), (Index3{7, 5, 5}));
     EXPECT_EQ(volume.bricks().first(2), 1);
-    EXPECT_EQ(volume.micro_bricks().first(0), 2);
+    EXPECT_EQ(volume.level(0).micro_bricks().first(0), 2);
 }
 
 TEST(BrickVolume, TakesLittleMoreThanItsVoxels) {
     base::Workers workers;
     FloatCube cube = test::noise_cube({200, 161, 130});
     const auto volume = test::bricks_of(cube, workers);
-    EXPECT_LT(static_cast<double>(volume.bytes()), 1.2 * static_cast<double>(cube.values().size()));
+    const auto voxels = static_cast<double>(cube.values().size());
+    EXPECT_LT(static_cast<double>(volume.level(0).bytes()), 1.2 * voxels);
+    EXPECT_LT(static_cast<double>(volume.bytes()), 1.3 * voxels);
 }
 
 TEST(BrickVolume, RefusesBoxesThatAreNone) {

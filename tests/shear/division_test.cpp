@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <random>
 
 #include "common/image/over_windows.h"
@@ -107,44 +108,57 @@ class Tree {
 struct Picture {
     Image<Rgba8> pixels;
     std::uint64_t samples = 0;
+    int level = 0;
 };
 
 Picture picture_of_tree(const Tree& tree, const Lattice& lattice, const view::Camera& camera,
-                        const ImageSize& size, const view::TransferFunction& tf, base::Workers& workers) {
-    const Factorisation f = view::factorise(camera, size, lattice, {1});
-    Picture picture;
+                        const ImageSize& size, const view::TransferFunction& tf, base::Workers& workers,
+                        const view::Sampling& sampling) {
+    const Factorisation f = view::factorise(camera, size, lattice, sampling);
+    Picture picture{.pixels = {}, .samples = 0, .level = f.level()};
     const auto windows = tree.render(f, tf, workers, picture.samples);
     picture.pixels = image::warp(f, windows, camera, size, {0, 0, 0}, workers);
     return picture;
 }
 
-constexpr ImageSize size{90, 70};
+// How the pictures of an expectation are taken.
+struct Taking {
+    view::Vec3 spacing{1, 1, 1};
+    volume::Mapping mapping{};
+    std::size_t every = 1;  // of all views
+    ImageSize size{90, 70};
+    view::Sampling sampling{};
+};
 
-void expect_one_picture(FloatCube& cube, const std::vector<Node>& divisions,
-                        const view::Vec3& spacing = {1, 1, 1}, const volume::Mapping& mapping = {},
-                        std::size_t every = 1) {
+// Returns how many pictures were taken of each level of detail.
+std::map<int, int> expect_one_picture(FloatCube& cube, const std::vector<Node>& divisions,
+                                      const Taking& taking = {}) {
     base::Workers workers;
-    const Lattice lattice{cube.n(), spacing};
-    const Tree whole({.box = volume::whole(cube.n())}, cube, workers, mapping);
+    const Lattice lattice{cube.n(), taking.spacing};
+    const Tree whole({.box = volume::whole(cube.n())}, cube, workers, taking.mapping);
     const auto tf = ramp_to(0.2);
     // Nothing gets opaque under this one, so every sample is taken by whoever owns it.
     const view::TransferFunction thin{.opacity_pins = {view::Flat{1e-9}}, .colour_pins = {{0, {1, 1, 1}}}};
+    std::map<int, int> levels;
     std::vector<Tree> trees;
     for (const Node& node : divisions) {
-        trees.emplace_back(node, cube, workers, mapping);
+        trees.emplace_back(node, cube, workers, taking.mapping);
     }
-    for (const NamedView& view : all_views(lattice, every)) {
-        const Picture one = picture_of_tree(whole, lattice, view.camera, size, tf, workers);
-        const Picture count = picture_of_tree(whole, lattice, view.camera, size, thin, workers);
+    for (const NamedView& view : all_views(lattice, taking.every)) {
+        const auto picture = [&](const Tree& tree, const view::TransferFunction& by) {
+            return picture_of_tree(tree, lattice, view.camera, taking.size, by, workers, taking.sampling);
+        };
+        const Picture one = picture(whole, tf);
+        const Picture count = picture(whole, thin);
+        ++levels[one.level];
         for (std::size_t i = 0; i < trees.size(); ++i) {
-            const Picture many = picture_of_tree(trees[i], lattice, view.camera, size, tf, workers);
+            const Picture many = picture(trees[i], tf);
             EXPECT_LE(largest_difference(one.pixels, many.pixels), 1) << view.name << ", division " << i;
             EXPECT_GE(psnr(one.pixels, many.pixels), 60) << view.name << ", division " << i;
-            EXPECT_EQ(picture_of_tree(trees[i], lattice, view.camera, size, thin, workers).samples,
-                      count.samples)
-                << view.name << ", division " << i;
+            EXPECT_EQ(picture(trees[i], thin).samples, count.samples) << view.name << ", division " << i;
         }
     }
+    return levels;
 }
 
 TEST(Division, AcrossEveryAxisGivesOnePicture) {
@@ -156,7 +170,7 @@ TEST(Division, AcrossEveryAxisGivesOnePicture) {
             divisions.push_back(even_cut(whole, axis, pieces));
         }
     }
-    expect_one_picture(cube, divisions, {1, 1, 1}, {}, 5);
+    expect_one_picture(cube, divisions, {.every = 5});
     // An eye on the plane of a cut, and rays along it.
     expect_one_picture(cube, {divisions[0], divisions[4], divisions[8]});
 }
@@ -169,7 +183,7 @@ TEST(Division, InTreesGivesOnePicture) {
         divide(node, pieces, levels);
         divisions.push_back(node);
     }
-    expect_one_picture(cube, divisions, {1, 0.4, 1.7}, {}, 2);
+    expect_one_picture(cube, divisions, {.spacing = {1, 0.4, 1.7}, .every = 2});
 }
 
 // Slivers one cell thin, beside one another and at the cube's edges; parts cut along different axes.
@@ -186,7 +200,33 @@ TEST(Division, UnevenlyGivesOnePicture) {
     Node nested = cut(whole, 2, {17});
     nested.parts[0] = cut(nested.parts[0].box, 1, {16});
     nested.parts[0].parts[0] = single;
-    expect_one_picture(cube, {slivers, nested}, {1, 1, 1}, {.bits = 16});
+    expect_one_picture(cube, {slivers, nested}, {.mapping = {.bits = 16}});
+}
+
+// Cuts that fall on nodes of no level but the voxels, on pictures in which voxels are small.
+TEST(Division, OnCoarserLevelsGivesOnePicture) {
+    FloatCube cube = noise_cube({131, 67, 97}, 4);
+    for (std::size_t i = 0; i < cube.values().size(); i += 7) {
+        cube.values()[i] = std::numeric_limits<float>::quiet_NaN();
+    }
+    const Box whole = volume::whole(cube.n());
+    Node tree{.box = whole};
+    divide(tree, 2, 3);
+    Node uneven = cut(whole, 0, {1, 2, 3, 37, 41, 129});
+    uneven.parts[3] = cut(uneven.parts[3].box, 1, {31});
+    uneven.parts[5] = cut(uneven.parts[5].box, 2, {1, 17, 50, 95});
+    const std::vector<Node> divisions{tree, uneven, even_cut(whole, 1, 3), even_cut(whole, 2, 7)};
+    for (const int bits : {8, 16}) {
+        const auto levels = expect_one_picture(cube, divisions,
+                                               {.mapping = {.bits = bits},
+                                                .every = bits == 8 ? 1U : 5U,
+                                                .size = {71, 55},
+                                                .sampling = {.level_of_detail = true}});
+        EXPECT_GT(levels.contains(1) ? levels.at(1) : 0, 2);
+    }
+    const auto levels = expect_one_picture(
+        cube, divisions, {.every = 3, .size = {37, 29}, .sampling = {.level_of_detail = true}});
+    EXPECT_GT(levels.contains(2) ? levels.at(2) : 0, 2);
 }
 
 }  // namespace

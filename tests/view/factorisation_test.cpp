@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include "common/volume/levels.h"
 
 namespace shearwater::view {
 namespace {
@@ -207,6 +210,67 @@ TEST(SlicesInFront, MayLieHalfAVoxelApart) {
     EXPECT_EQ(f.step(face, 0, 0), 0.5 * Factorisation{.lattice = lattice}.step(face, 0, 0));
 }
 
+// By walking over all slices: the fewest voxels from pixel to pixel where a face's pixels see the cube, but for
+// those that only the warp's filter asks for.
+double least_voxels_per_pixel(const Factorisation& f) {
+    constexpr int margin = 3;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Face& face : f.faces) {
+        const auto last = [&](int axis) { return static_cast<double>(f.lattice.n[axis] - 1); };
+        const SliceRange slices = slices_in_front(f, face, 0, f.lattice.n[face.axis] - 1);
+        for (std::int64_t k = slices.first; k <= slices.last; ++k) {
+            const SliceMap map = f.slice_map(face, static_cast<double>(k));
+            const PixelRange u = pixels_between(map.u_offset, map.u_scale, 0, last(face.u_axis()), true, face.width);
+            const PixelRange v = pixels_between(map.v_offset, map.v_scale, 0, last(face.v_axis()), true, face.height);
+            if (std::max(u.first, margin) < std::min(u.last, face.width - margin) &&
+                std::max(v.first, margin) < std::min(v.last, face.height - margin)) {
+                least = std::min({least, std::abs(map.u_scale), std::abs(map.v_scale)});
+            }
+        }
+    }
+    return least;
+}
+
+TEST(Factorise, ChoosesTheCoarsestLevelWhoseVoxelsAreNoLargerThanAPixel) {
+    const Lattice large{{1000, 300, 1600}, {1, 1.3, 0.7}};
+    std::array<int, volume::max_level + 1> chosen{};
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (int i = 0; i < 300; ++i) {
+        const double distance = 0.3 * std::pow(40, unit(random)) * large.diagonal();
+        const Camera camera = camera_on({unit(random) * 360, unit(random) * 180 - 90, distance}, large,
+                                        i % 3 == 0 ? Projection::parallel : Projection::perspective, 40,
+                                        large.diagonal() * 2 * unit(random));
+        const Factorisation f = factorise(camera, {160, 120}, large, {.level_of_detail = true});
+        ASSERT_TRUE(validate(f).has_value());
+        Factorisation exact = f;
+        exact.slice_exponent = 0;
+        EXPECT_EQ(exact, factorise(camera, {160, 120}, large, {}));
+        const double least = least_voxels_per_pixel(exact);
+        if (f.faces.empty() || std::isinf(least)) {
+            continue;
+        }
+        EXPECT_LE(f.level() == 0 ? 0 : f.slice_pitch(), least) << i;
+        EXPECT_TRUE(f.level() == volume::max_level || 2 * f.slice_pitch() > 0.97 * least) << i << ": " << least;
+        ++chosen.at(static_cast<std::size_t>(f.level()));
+    }
+    for (const int times : chosen) {
+        EXPECT_GT(times, 3);
+    }
+}
+
+TEST(Factorise, KeepsToTheLevelsThatTheCubeHas) {
+    const Lattice small{{64, 20, 33}};
+    const Camera far = camera_on({30, 20, 1e5}, small);
+    EXPECT_EQ(factorise(far, {64, 64}, small, {.level_of_detail = true}).slice_exponent, 1);
+    EXPECT_EQ(factorise(far, {64, 64}, small, {.slice_exponent = -1}).slice_exponent, -1);
+    const Camera near = camera_on({30, 20, 20}, small);
+    EXPECT_EQ(factorise(near, {64, 64}, small, {.slice_exponent = -1, .level_of_detail = true}).slice_exponent, -1);
+    EXPECT_EQ(factorise(near, {64, 64}, small, {.level_of_detail = true}).slice_exponent, 0);
+    EXPECT_TRUE(sampling(Quality::draft, true).level_of_detail);
+    EXPECT_FALSE(sampling(Quality::high, false).level_of_detail);
+}
+
 TEST(ValidateFactorisation, RefusesWhatAPeerMayMakeUp) {
     const Factorisation good = factorise(camera_on({}, lattice), {64, 64}, lattice, {1});
     const auto fails = [&](const auto& spoil) {
@@ -220,7 +284,10 @@ TEST(ValidateFactorisation, RefusesWhatAPeerMayMakeUp) {
     EXPECT_TRUE(fails([](Factorisation& f) { f.lattice.n = {1LL << 40, 1LL << 40, 2}; }));
     EXPECT_TRUE(fails([&](Factorisation& f) { f.lattice.spacing.x = nan; }));
     EXPECT_TRUE(fails([&](Factorisation& f) { f.eye.z = nan; }));
-    EXPECT_TRUE(fails([](Factorisation& f) { f.slice_exponent = 1; }));
+    EXPECT_FALSE(fails([](Factorisation& f) { f.slice_exponent = 1; }));
+    for (const int exponent : {-2, 2, 6, 1000}) {  // the lattice has one level but its voxels
+        EXPECT_TRUE(fails([&](Factorisation& f) { f.slice_exponent = exponent; })) << exponent;
+    }
     EXPECT_TRUE(fails([](Factorisation& f) { f.faces.resize(7, f.faces[0]); }));
     EXPECT_TRUE(fails([](Factorisation& f) { f.faces[0].axis = 3; }));
     EXPECT_TRUE(fails([](Factorisation& f) { f.faces[0].sign = 0; }));

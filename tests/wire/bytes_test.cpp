@@ -118,6 +118,16 @@ TEST(Bytes, OfEveryMessageAreThoseOfVersionOne) {
     }
 }
 
+// What a request for every voxel adds to that in the examples: the body's end, two bytes longer.
+TEST(Bytes, OfAnExactView) {
+    View view = view_request();
+    const std::string with_levels = hex(encode_head(message(to_wire(view))));
+    view.level_of_detail = false;
+    const std::string exact = hex(encode_head(message(to_wire(view))));
+    constexpr std::size_t header_digits = 2 * header_bytes;
+    EXPECT_EQ(exact.substr(header_digits), with_levels.substr(header_digits) + "4001");
+}
+
 TEST(Bytes, OfEveryMessageAreReadBack) {
     for (const Message& example : examples()) {
         const std::vector<std::byte> head = encode_head(example);

@@ -39,6 +39,8 @@ TEST(ViewConversion, ThereAndBack) {
             EXPECT_EQ(back.tf, view.tf);
             EXPECT_EQ(back.quality, view.quality);
             EXPECT_EQ(back.deflate, view.deflate);
+            EXPECT_EQ(back.level_of_detail, view.level_of_detail);
+            view.level_of_detail = !view.level_of_detail;
         }
     }
 }
@@ -163,6 +165,21 @@ TEST(FactorisationConversion, WhatTheHeadMakesIsTaken) {
     }
 }
 
+TEST(FactorisationConversion, TakesTheLevelsThatACubeHas) {
+    view::Factorisation f = factorisation();
+    f.lattice.n = {20, 1024, 7};
+    for (f.slice_exponent = -1; f.slice_exponent <= 5; ++f.slice_exponent) {
+        EXPECT_EQ(factorisation_from(to_wire(f)).value(), f);
+    }
+    for (const int exponent : {-2, 6, 1000}) {
+        f.slice_exponent = exponent;
+        expect_invalid(factorisation_from(to_wire(f)), "slice_exponent");
+    }
+    f.lattice.n = {20, 512, 7};
+    f.slice_exponent = 5;
+    expect_invalid(factorisation_from(to_wire(f)), "slice_exponent");
+}
+
 TEST(FactorisationConversion, Hostile) {
     const auto refused = [](std::string_view what, auto change) {
         expect_refused(to_wire(factorisation()), factorisation_from, what, change);
@@ -177,7 +194,7 @@ TEST(FactorisationConversion, Hostile) {
         refused("pitch_u", [&](pb::Factorisation& f) { f.mutable_faces(1)->set_pitch_u(value); });
         refused("pitch_v", [&](pb::Factorisation& f) { f.mutable_faces(1)->set_pitch_v(value); });
     }
-    for (const int exponent : {-2, 1, 1000}) {
+    for (const int exponent : {-2, 1, 6, 1000}) {  // this cube has no level but its voxels
         refused("slice_exponent", [&](pb::Factorisation& f) { f.set_slice_exponent(exponent); });
     }
     refused("projection", [](pb::Factorisation& f) { f.set_projection(static_cast<pb::Projection>(7)); });

@@ -1,0 +1,33 @@
+#pragma once
+// The coarser levels of a cube: level L has nodes at the voxel indices that are multiples of 2^L along every axis, up
+// to the first that is not before the cube's last voxel. Level 0 is the voxels.
+//
+//   level 0   o   o   o   o   o   o       a node is made from those of the next finer level that are at most
+//             | \ | / | \ | / | \ |       one of its nodes away along every axis
+//   level 1   o       o       o       .
+
+#include <vector>
+
+#include "common/volume/box.h"
+
+namespace shearwater::volume {
+
+inline constexpr int max_level = 5;
+
+// The coarsest that a cube of n voxels has: it has more than 32 nodes along the longest axis, or is level 0.
+int coarsest_level(const Index3& n);
+
+// A level's last node along each axis.
+Index3 last_nodes(const Index3& n, int level);
+
+// The nodes of a level between which the points lie that a box of voxels owns.
+Box nodes_of(const Box& box, int level);
+
+// The nodes of the next finer level, with the given last ones, that nodes are made from.
+Box made_from(const Box& nodes, const Index3& last_finer);
+
+// Of every level of a cube of n voxels, from 0 to the coarsest, the nodes_of a box and those that nodes_of it on
+// coarser levels are made from. On level 0 it is what whoever renders the box has to read.
+std::vector<Box> nodes_to_make(const Box& box, const Index3& n);
+
+}  // namespace shearwater::volume

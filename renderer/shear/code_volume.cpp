@@ -1,0 +1,101 @@
+#include "renderer/shear/code_volume.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "common/base/check.h"
+#include "renderer/shear/kernel.h"
+#include "renderer/shear/survey.h"
+
+namespace shearwater::shear {
+
+using volume::Box;
+using volume::Index3;
+
+namespace {
+
+// A little more than so many codes, if need be: rows or planes that lie a large power of two apart would compete
+// for the same few lines of the caches.
+std::int64_t padded(std::int64_t codes, std::int64_t code_bytes) {
+    constexpr std::int64_t vector = 16, line = 64, far = 512;
+    const std::int64_t bytes = (codes * code_bytes + vector - 1) / vector * vector;
+    return (bytes % far == 0 ? bytes + line : bytes) / code_bytes;
+}
+
+Index3 strides_of(const Box& box, int bits) {
+    const std::int64_t row = padded(box.planes(0), bits / 8);
+    return {1, row, padded(row * box.planes(1), bits / 8)};
+}
+
+std::size_t bytes_of(const Box& box, const Index3& strides, int bits) {
+    return static_cast<std::size_t>(strides[2] * box.planes(2) * (bits / 8)) + voxel_padding;
+}
+
+}  // namespace
+
+void CodeRange::add(const CodeRange& other) {
+    min = std::min(min, other.min);
+    max = std::max(max, other.max);
+    blanks = blanks || other.blanks;
+}
+
+CodeGrid::CodeGrid(const Box& box, std::int64_t edge) : edge_(edge) {
+    std::int64_t count = 1;
+    for (std::size_t a = 0; a < 3; ++a) {
+        first_[a] = box.lo[a] / edge;
+        counts_[a] = (box.hi[a] - 1) / edge - first_[a] + 1;
+        count *= counts_[a];
+    }
+    ranges_.resize(static_cast<std::size_t>(count));
+}
+
+CodeVolume::CodeVolume(const Box& box, int bits)
+    : box_(box), bits_(bits), strides_(strides_of(box, bits)), codes_(bytes_of(box, strides_, bits)) {}
+
+std::size_t CodeVolume::bytes() const {
+    return codes_.size() + micro_bricks_.ranges().size_bytes();
+}
+
+std::size_t CodeVolume::offset(const Index3& p) const {
+    std::size_t offset = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+        offset += static_cast<std::size_t>((p[a] - box_.lo[a]) * strides_[a]);
+    }
+    return offset;
+}
+
+// In place: with strides no longer than before, every row moves towards the front, if at all.
+void CodeVolume::crop(const Box& box) {
+    base::check(box_.contains(box), "a volume is cropped to what it holds");
+    if (box == box_) {
+        return;
+    }
+    Index3 strides = strides_of(box, bits_);
+    for (std::size_t a = 0; a < 3; ++a) {
+        strides[a] = std::min(strides[a], strides_[a]);
+    }
+    const auto code_bytes = static_cast<std::size_t>(bits_ / 8);
+    auto* const all = static_cast<std::byte*>(codes_.data());
+    for (std::int64_t z = 0; z < box.planes(2); ++z) {
+        for (std::int64_t y = 0; y < box.planes(1); ++y) {
+            const std::size_t from = offset({box.lo[0], box.lo[1] + y, box.lo[2] + z}) * code_bytes;
+            const std::size_t to = static_cast<std::size_t>(z * strides[2] + y * strides[1]) * code_bytes;
+            std::memmove(all + to, all + from, static_cast<std::size_t>(box.planes(0)) * code_bytes);
+        }
+    }
+    box_ = box;
+    strides_ = strides;
+    codes_.shrink(bytes_of(box, strides, bits_));
+}
+
+bool CodeVolume::survey(base::Workers& workers, const std::stop_token& stop) {
+    micro_bricks_ = CodeGrid(box_, micro_edge);
+    const auto over = [&]<class Code>(std::span<const Code> codes) {
+        return shear::survey(CodesOfBox<Code>{codes.data(), box_, stride(1), stride(2)}, micro_bricks_, workers,
+                             stop);
+    };
+    return bits_ == 8 ? over(std::as_const(*this).codes<std::uint8_t>())
+                      : over(std::as_const(*this).codes<std::uint16_t>());
+}
+
+}  // namespace shearwater::shear

@@ -1,0 +1,93 @@
+#pragma once
+// Codes of the nodes in a box of some level of a cube: one copy that serves all three principal axes.
+//
+// Codes lie in rows along axis 0, planes of rows, and so on, as in the cube, so that a tile's samples on a
+// slice lie in a few long rows whatever the axis. What a transfer function may pass over is told by micro-bricks
+// of 8^3 cells on a grid global to the level, each with the codes that occur on its planes, those it shares with
+// its neighbours included. On level 0 the nodes are the cube's voxels.
+
+#include <cstdint>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "common/base/huge_array.h"
+#include "common/base/workers.h"
+#include "common/volume/box.h"
+
+namespace shearwater::shear {
+
+// The codes that occur in a part of the sub-volume.
+struct CodeRange {
+    std::uint16_t min = 65535;  // of the codes that are not blank; min > max when all are
+    std::uint16_t max = 0;
+    bool blanks = false;
+
+    bool operator==(const CodeRange&) const = default;
+    bool empty() const { return min > max; }
+    void add(const CodeRange& other);
+};
+
+// A box's cells in cubes on the cube's grid, and what is known of each, axis 0 fastest.
+class CodeGrid {
+  public:
+    CodeGrid() = default;
+    CodeGrid(const volume::Box& box, std::int64_t edge);
+
+    std::int64_t edge() const { return edge_; }
+    const volume::Index3& counts() const { return counts_; }
+    // Of the grid's first along an axis, in edges from the cube's first voxel.
+    std::int64_t first(int axis) const { return first_[static_cast<std::size_t>(axis)]; }
+    std::size_t index(const volume::Index3& at) const {
+        return static_cast<std::size_t>((at[2] * counts_[1] + at[1]) * counts_[0] + at[0]);
+    }
+    std::span<const CodeRange> ranges() const { return ranges_; }
+    std::span<CodeRange> ranges() { return ranges_; }
+
+  private:
+    std::int64_t edge_ = 1;
+    volume::Index3 first_{}, counts_{};
+    std::vector<CodeRange> ranges_;
+};
+
+class CodeVolume {
+  public:
+    static constexpr std::int64_t micro_edge = 8;
+
+    CodeVolume() = default;
+    // Blank throughout, with codes of 8 or 16 bits; std::bad_alloc where there is no room.
+    CodeVolume(const volume::Box& box, int bits);
+
+    const volume::Box& box() const { return box_; }
+    int bits() const { return bits_; }
+    std::size_t bytes() const;
+
+    // The codes, `Code` having as many bits. That of the node at p lies at offset(p); from one to the next along
+    // an axis it is stride(axis). Behind the last lie voxel_padding bytes more.
+    template <class Code>
+    std::span<const Code> codes() const {
+        return {static_cast<const Code*>(codes_.data()), codes_.size() / sizeof(Code)};
+    }
+    template <class Code>
+    std::span<Code> codes() {
+        return {static_cast<Code*>(codes_.data()), codes_.size() / sizeof(Code)};
+    }
+    std::ptrdiff_t stride(int axis) const { return strides_[static_cast<std::size_t>(axis)]; }
+    std::size_t offset(const volume::Index3& p) const;
+
+    // Lets go of what is not in a box inside its own. To be done before the survey.
+    void crop(const volume::Box& box);
+
+    // Finds out what the micro-bricks hold; false if stopped before.
+    bool survey(base::Workers& workers, const std::stop_token& stop);
+    const CodeGrid& micro_bricks() const { return micro_bricks_; }
+
+  private:
+    volume::Box box_;
+    int bits_ = 8;
+    volume::Index3 strides_{};
+    base::HugeBytes codes_;
+    CodeGrid micro_bricks_;
+};
+
+}  // namespace shearwater::shear

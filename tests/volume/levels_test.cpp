@@ -1,0 +1,55 @@
+#include "common/volume/levels.h"
+
+#include <gtest/gtest.h>
+
+namespace shearwater::volume {
+namespace {
+
+TEST(Levels, EndWhereMoreThan32NodesAreLeft) {
+    EXPECT_EQ(coarsest_level({63, 10, 63}), 0);
+    EXPECT_EQ(coarsest_level({10, 64, 2}), 1);
+    EXPECT_EQ(coarsest_level({64, 2, 2}), 1);
+    EXPECT_EQ(coarsest_level({256, 256, 256}), 3);
+    EXPECT_EQ(coarsest_level({2, 2, 1024}), 5);
+    EXPECT_EQ(coarsest_level({1 << 20, 2, 2}), max_level);
+    for (std::int64_t n = 64; n < 1100; ++n) {
+        const std::int64_t nodes = last_nodes({n, 2, 2}, coarsest_level({n, 2, 2}))[0] + 1;
+        EXPECT_GT(nodes, 32) << n;
+        EXPECT_LE(nodes, 65) << n;
+    }
+}
+
+TEST(Levels, EndAtOrBeyondTheLastVoxel) {
+    EXPECT_EQ(last_nodes({65, 66, 2}, 1), (Index3{32, 33, 1}));
+    EXPECT_EQ(last_nodes({65, 66, 2}, 5), (Index3{2, 3, 1}));
+    EXPECT_EQ(last_nodes({65, 66, 2}, 0), (Index3{64, 65, 1}));
+}
+
+TEST(Levels, HoldTheNodesAboutABox) {
+    const Box box{{7, 8, 9}, {8, 17, 100}};
+    EXPECT_EQ(nodes_of(box, 0), box);
+    EXPECT_EQ(nodes_of(box, 3), (Box{{0, 1, 1}, {1, 3, 13}}));
+}
+
+TEST(Levels, AreMadeFromWhatLiesAboutTheBox) {
+    const Index3 n{300, 200, 129};
+    for (const Box& box : {whole(n), Box{{0, 0, 0}, {1, 1, 1}}, Box{{150, 100, 64}, {299, 199, 128}},
+                           Box{{37, 101, 3}, {38, 155, 127}}}) {
+        const auto levels = nodes_to_make(box, n);
+        ASSERT_EQ(levels.size(), 4U);
+        for (int level = 0; level < 4; ++level) {
+            const Box& nodes = levels[static_cast<std::size_t>(level)];
+            EXPECT_TRUE(nodes.contains(nodes_of(box, level)));
+            EXPECT_TRUE((Box{{0, 0, 0}, last_nodes(n, level)}.contains(nodes)));
+            if (level > 0) {
+                EXPECT_TRUE(levels[static_cast<std::size_t>(level) - 1].contains(
+                    made_from(nodes, last_nodes(n, level - 1))));
+            }
+        }
+    }
+    EXPECT_EQ(nodes_to_make(whole(n), n).front(), whole(n));
+    EXPECT_EQ(nodes_to_make({{0, 0, 0}, {128, 199, 128}}, n).front().hi, (Index3{135, 199, 128}));
+}
+
+}  // namespace
+}  // namespace shearwater::volume
