@@ -303,10 +303,9 @@ void Tile<Code>::note_met(const VoxelRegion& region) {
     volume::Index3 first, last;
     for (std::size_t n = 0; n < 3; ++n) {
         const auto a = static_cast<std::size_t>(axes[n]);
-        first[a] = region.lo[n] / bricks.edge() - bricks.first(axes[n]);
-        last[a] =
-            std::min((region.hi[n] - 1) / bricks.edge() - bricks.first(axes[n]), bricks.counts()[a] - 1);
-        first[a] = std::min(first[a], last[a]);
+        // A region may be one plane: that of the slice, or the sub-volume's last.
+        first[a] = std::min(region.lo[n] / bricks.edge() - bricks.first(axes[n]), bricks.counts()[a] - 1);
+        last[a] = std::max((region.hi[n] - 1) / bricks.edge() - bricks.first(axes[n]), first[a]);
     }
     volume::Index3 at;
     for (at[2] = first[2]; at[2] <= last[2]; ++at[2]) {
