@@ -3,11 +3,40 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <new>
 
 #include "common/base/check.h"
 
 namespace shearwater::base {
+
+#ifdef __SANITIZE_ADDRESS__
+
+// The address sanitizer watches the ends of what comes from the heap, and of nothing else.
+HugeBytes::HugeBytes(std::size_t bytes) : size_(bytes) {
+    if (bytes == 0) {
+        return;
+    }
+    data_ = std::calloc(bytes, 1);
+    if (data_ == nullptr) {
+        throw std::bad_alloc();
+    }
+}
+
+HugeBytes::~HugeBytes() {
+    std::free(data_);
+}
+
+void HugeBytes::shrink(std::size_t bytes) {
+    check(0 < bytes && bytes <= size_, "memory shrinks to a part of it");
+    void* const shrunk = std::realloc(data_, bytes);
+    if (shrunk != nullptr) {
+        data_ = shrunk;
+    }
+    size_ = bytes;
+}
+
+#else
 
 HugeBytes::HugeBytes(std::size_t bytes) : size_(bytes) {
     if (bytes == 0) {
@@ -37,5 +66,7 @@ void HugeBytes::shrink(std::size_t bytes) {
     }
     size_ = bytes;
 }
+
+#endif
 
 }  // namespace shearwater::base

@@ -14,7 +14,8 @@ class HugeBytes {
     HugeBytes() = default;
     explicit HugeBytes(std::size_t bytes);
     ~HugeBytes();
-    HugeBytes(HugeBytes&& other) noexcept : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
+    HugeBytes(HugeBytes&& other) noexcept
+        : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
     HugeBytes& operator=(HugeBytes&& other) noexcept {
         std::swap(data_, other.data_);
         std::swap(size_, other.size_);
@@ -39,14 +40,15 @@ template <class T>
 class HugeArray {
   public:
     HugeArray() = default;
-    explicit HugeArray(std::size_t count) : bytes_(count * sizeof(T)), count_(count) {}
+    explicit HugeArray(std::size_t count) : bytes_(count * sizeof(T)) {}
 
-    std::span<T> span() { return {static_cast<T*>(bytes_.data()), count_}; }
-    std::span<const T> span() const { return {static_cast<const T*>(bytes_.data()), count_}; }
+    std::span<T> span() { return {static_cast<T*>(bytes_.data()), count()}; }
+    std::span<const T> span() const { return {static_cast<const T*>(bytes_.data()), count()}; }
 
   private:
+    std::size_t count() const { return bytes_.size() / sizeof(T); }
+
     HugeBytes bytes_;
-    std::size_t count_ = 0;
 };
 
 }  // namespace shearwater::base

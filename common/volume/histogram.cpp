@@ -162,7 +162,8 @@ double Histogram::quantile(double fraction) const {
         const auto count = static_cast<double>(counts_[key]);
         if (count > 0 && below + count >= wanted) {
             const double first = lower_edge(key);
-            const double share = (wanted - below) / count;
+            // What lies in one bin with zero is zero, as a rule: a share of a float's least would look odd.
+            const double share = first == 0 ? 0 : (wanted - below) / count;
             return std::clamp(first + (lower_edge(key + 1) - first) * share, min_, max_);
         }
         below += count;

@@ -45,7 +45,7 @@ class Histogram {
     double max() const { return max_; }
 
     // The value below which a share `fraction` in [0, 1] of the valid values lies, interpolated inside
-    // its bin and never outside [min, max]; 0 when there is none.
+    // its bin (zero's is not divided) and never outside [min, max]; 0 when there is none.
     double quantile(double fraction) const;
 
     // The bins that are not empty, by rising key; with min, max and blank they are the whole state.

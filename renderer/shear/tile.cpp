@@ -333,7 +333,7 @@ VoxelRegion Tile<Code>::behind(const VoxelRegion& region) const {
 
 template <class Code>
 void Tile<Code>::note_met(const VoxelRegion& region) {
-        const std::array<int, 3> axes{plan_.fast_axis(), plan_.slow_axis(), plan_.face().axis};
+    const std::array<int, 3> axes{plan_.fast_axis(), plan_.slow_axis(), plan_.face().axis};
     volume::Index3 first, last;
     for (std::size_t n = 0; n < 3; ++n) {
         const auto a = static_cast<std::size_t>(axes[n]);
@@ -343,7 +343,8 @@ void Tile<Code>::note_met(const VoxelRegion& region) {
                                             bricks_.counts()[a] - 1);
         };
         first[a] = brick_of(region.lo[n] << plan_.level());
-        last[a] = brick_of((region.hi[n] << plan_.level()) - 1);
+        // A region may be one plane: that of the slice, or the sub-volume's last.
+        last[a] = std::max(brick_of((region.hi[n] << plan_.level()) - 1), first[a]);
     }
     volume::Index3 at;
     for (at[2] = first[2]; at[2] <= last[2]; ++at[2]) {

@@ -174,6 +174,15 @@ TEST(Histogram, DenormalAndTinyValuesKeepTheirSizes) {
     EXPECT_NEAR(histogram.quantile(0.6) / 8e-16, 1, 1e-3);
 }
 
+TEST(Histogram, ZerosHaveZeroForTheirQuantiles) {
+    std::vector<float> values(100, 0.0F);
+    values.insert(values.end(), 50, 7.0F);
+    const Histogram histogram = of(values);
+    EXPECT_EQ(histogram.quantile(0.1), 0);
+    EXPECT_EQ(histogram.quantile(0.5), 0);
+    EXPECT_NEAR(histogram.quantile(0.9), 7, 7.0 / 2048);
+}
+
 TEST(Histogram, AllBlankHasNoValues) {
     const Histogram histogram = of(std::vector<float>{std::nanf(""), infinity, -infinity});
     EXPECT_EQ(histogram.valid(), 0U);
