@@ -19,6 +19,7 @@ struct Options {
     std::string connect, secret_file, tf_file, screenshot;
     std::string size = "1280x800";
     ui::WindowOptions window;
+    model::Effort effort;
 };
 
 std::string check_size(const std::string& text) {
@@ -38,6 +39,10 @@ void declare(CLI::App& app, Options& options) {
     app.add_option("--size", options.size, "The window's size")->check(check_size)->capture_default_str();
     app.add_option("--scale", options.window.scale, "Pixels per nominal pixel; else as the display says")
         ->check(CLI::Range(0.5, 4.0));
+    app.add_option("--target-rate", options.effort.target_rate,
+                   "Frames a second to hold while the view moves, by lesser quality where need be")
+        ->check(CLI::Range(model::Effort::min_rate, model::Effort::max_rate))
+        ->capture_default_str();
     app.add_option("--screenshot", options.screenshot,
                    "Write the window to this PNG file once the first whole picture is seen, and end");
 }
@@ -77,7 +82,8 @@ base::Status run(Options options) {
         return window.error();
     }
     ui::Network network(*server, std::move(*secret), ui::Window::wake);
-    ui::App app(**window, network, {.tf = std::move(*tf), .screenshot = options.screenshot});
+    ui::App app(**window, network,
+                {.tf = std::move(*tf), .effort = options.effort, .screenshot = options.screenshot});
     return app.run();
 }
 

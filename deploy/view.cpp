@@ -12,6 +12,7 @@ const std::string program = "shearwater view";
 struct Flags {
     TargetOptions target;
     std::string tf_file;
+    double target_rate = 20;
 };
 
 // Starts the window and waits until it closes; a local tree is kept alive meanwhile.
@@ -24,6 +25,7 @@ base::Result<int> view(const Flags& flags) {
         return target.error();
     }
     std::vector<std::string> arguments{"--connect", wire::to_string(target->server)};
+    arguments.insert(arguments.end(), {"--target-rate", std::to_string(flags.target_rate)});
     if (!flags.tf_file.empty()) {
         arguments.insert(arguments.end(), {"--tf", flags.tf_file});
     }
@@ -55,6 +57,10 @@ base::Result<int> view(const Flags& flags) {
 Run add_view(CLI::App& app) {
     auto flags = std::make_shared<Flags>();
     app.add_option("--tf", flags->tf_file, "transfer function to begin with, a TOML file");
+    app.add_option("--target-rate", flags->target_rate,
+                   "frames a second to hold while the view moves, by lesser quality where need be")
+        ->check(CLI::Range(1.0, 60.0))
+        ->capture_default_str();
     flags->target.add_to(app);
     return [flags] {
         const auto status = view(*flags);

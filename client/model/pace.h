@@ -18,7 +18,7 @@ namespace shearwater::model {
 
 // How well a person wants the pictures drawn.
 struct Effort {
-    static constexpr double min_rate = 1, max_rate = 120;
+    static constexpr double min_rate = 1, max_rate = 60;
 
     std::optional<view::Quality> fixed;  // always this one
     double target_rate = 20;             // else: frames a second to hold while the view moves

@@ -39,6 +39,13 @@ void Network::want(const model::Wish& wish, model::Change change) {
     }
 }
 
+void Network::set_effort(const model::Effort& effort) {
+    asio::post(io_, [this, effort] {
+        session_.set_effort(effort, Clock::now());
+        carry_out();
+    });
+}
+
 void Network::retry() {
     asio::post(io_, [this] {
         session_.retry(Clock::now());

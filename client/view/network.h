@@ -23,6 +23,7 @@ class Network {
 
     // The newest wish wins.
     void want(const model::Wish& wish, model::Change change);
+    void set_effort(const model::Effort& effort);
     void retry();
 
     // The newest status and picture, each given once.
