@@ -211,9 +211,12 @@ void quality(Desk& desk) {
     float rate = static_cast<float>(desk.effort.target_rate);
     ImGui::SetNextItemWidth(-FLT_MIN);
     if (ImGui::SliderFloat("##rate", &rate, static_cast<float>(model::Effort::min_rate),
-                           static_cast<float>(model::Effort::max_rate), "%.0f frames/s while it moves",
+                           static_cast<float>(model::Effort::max_rate), "%.0f frames/s",
                            ImGuiSliderFlags_AlwaysClamp)) {
         desk.effort.target_rate = std::round(static_cast<double>(rate));
+    }
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("held while the view moves");
     }
     ImGui::EndDisabled();
 }
