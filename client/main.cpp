@@ -20,6 +20,7 @@ struct Options {
     std::string size = "1280x800";
     std::string lod = "on";
     ui::WindowOptions window;
+    model::Effort effort;
 };
 
 std::string check_size(const std::string& text) {
@@ -42,6 +43,10 @@ void declare(CLI::App& app, Options& options) {
     app.add_option("--size", options.size, "The window's size")->check(check_size)->capture_default_str();
     app.add_option("--scale", options.window.scale, "Pixels per nominal pixel; else as the display says")
         ->check(CLI::Range(0.5, 4.0));
+    app.add_option("--target-rate", options.effort.target_rate,
+                   "Frames a second to hold while the view moves, by lesser quality where need be")
+        ->check(CLI::Range(model::Effort::min_rate, model::Effort::max_rate))
+        ->capture_default_str();
     app.add_option("--screenshot", options.screenshot,
                    "Write the window to this PNG file once the first whole picture is seen, and end");
 }
@@ -81,9 +86,11 @@ base::Status run(Options options) {
         return window.error();
     }
     ui::Network network(*server, std::move(*secret), ui::Window::wake);
-    ui::App app(**window, network, {.tf = std::move(*tf),
-                                  .level_of_detail = options.lod == "on",
-                                  .screenshot = options.screenshot});
+    ui::App app(**window, network,
+                {.tf = std::move(*tf),
+                 .level_of_detail = options.lod == "on",
+                 .effort = options.effort,
+                 .screenshot = options.screenshot});
     return app.run();
 }
 

@@ -14,6 +14,7 @@ struct Flags {
     TargetOptions target;
     std::string tf_file;
     std::string lod = "on";
+    double target_rate = 20;
 };
 
 // Starts the window and waits until it closes; a local tree is kept alive meanwhile.
@@ -27,6 +28,7 @@ base::Result<int> view(const Flags& flags) {
     }
     std::vector<std::string> arguments{"--connect", wire::to_string(target->server)};
     arguments.insert(arguments.end(), {"--lod", flags.lod});
+    arguments.insert(arguments.end(), {"--target-rate", std::to_string(flags.target_rate)});
     if (!flags.tf_file.empty()) {
         arguments.insert(arguments.end(), {"--tf", flags.tf_file});
     }
@@ -59,6 +61,10 @@ Run add_view(CLI::App& app) {
     auto flags = std::make_shared<Flags>();
     app.add_option("--tf", flags->tf_file, "transfer function to begin with, a TOML file");
     add_lod(app, flags->lod);
+    app.add_option("--target-rate", flags->target_rate,
+                   "frames a second to hold while the view moves, by lesser quality where need be")
+        ->check(CLI::Range(1.0, 60.0))
+        ->capture_default_str();
     flags->target.add_to(app);
     return [flags] {
         const auto status = view(*flags);

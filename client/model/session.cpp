@@ -117,7 +117,7 @@ void Session::on_message(const wire::Message& message, wire::Time now) {
         cube_ = std::move(*cube);
         described_ = true;
         unsent_ = wish_.has_value();
-        quality_ = view::Quality::normal;
+        quality_ = pace_.for_single();
         send_if_due(now);
     } else if (const auto* state = std::get_if<pb::TreeState>(&message.body)) {
         auto tree = tree_from(*state);
@@ -169,6 +169,7 @@ void Session::on_frame(const wire::Message& message, wire::Time now) {
     const double server_seconds = std::max(0.0, frame.stats().total_seconds());
     if (sent->revision > answered_ && sent->tree_ready) {
         meter_.count(now, latency, message.payload_size());
+        pace_.count(now, sent->at, sent->quality, frame.stats().leaves().render_seconds());
     }
     if (sent->tree_ready && sent->revision == revision_ && sent->revision == answered_ + 1) {
         notice_link_speed(message.payload_size(), latency.count() - server_seconds);
@@ -179,6 +180,7 @@ void Session::on_frame(const wire::Message& message, wire::Time now) {
     retry_after_ = first_retry;
     ready_at_frame_ = tree_.in_phase(pb::PHASE_READY);
     forget_older_than(frame.revision());
+    refine(now);
     send_if_due(now);
 }
 
@@ -186,22 +188,23 @@ void Session::on_tick(wire::Time now) {
     if (connection_ == Connection::waiting && now >= retry_at_) {
         dial(now);
     }
-    const auto rest = now - changed_at_;
-    const auto improve = [&](view::Quality to) {
-        if (wish_ && static_cast<int>(to) > static_cast<int>(quality_)) {
-            quality_ = to;
-            unsent_ = true;
-        }
-    };
     if (wish_ && is_worth_asking_again(now)) {
         unsent_ = true;
     }
-    if (rest >= rest_for_high) {
-        improve(view::Quality::high);
-    } else if (rest >= rest_for_normal) {
-        improve(view::Quality::normal);
-    }
+    refine(now);
     send_if_due(now);
+}
+
+// A view at rest is asked for once more, better.
+void Session::refine(wire::Time now) {
+    if (!wish_ || is_moving(now)) {
+        return;
+    }
+    one_of_many_ = false;
+    if (const auto next = pace_.at_rest(quality_, has_come())) {
+        quality_ = *next;
+        unsent_ = true;
+    }
 }
 
 // The tree is whole and nothing is under way, and yet the newest picture lacks parts: they were lost while
@@ -215,10 +218,17 @@ void Session::want(const Wish& wish, Change change, wire::Time now) {
     if (wish_ == wish) {
         return;
     }
+    one_of_many_ = change == Change::dragging || is_moving(now);
     wish_ = wish;
-    quality_ = change == Change::dragging ? view::Quality::draft : view::Quality::normal;
+    quality_ = pace_.for_single();
     changed_at_ = now;
     unsent_ = true;
+    send_if_due(now);
+}
+
+void Session::set_effort(const Effort& effort, wire::Time now) {
+    pace_.set(effort);
+    refine(now);
     send_if_due(now);
 }
 
@@ -234,6 +244,9 @@ void Session::send_if_due(wire::Time now) {
 }
 
 void Session::send_view(wire::Time now) {
+    if (one_of_many_) {
+        quality_ = pace_.while_moving(now);
+    }
     const wire::View view{.revision = ++revision_,
                           .camera = camera(wish_->viewpoint, cube_->lattice),
                           .size = wish_->size,
@@ -276,6 +289,8 @@ Status Session::status(wire::Time now) const {
     status.tree = tree_;
     status.frame = frame_;
     status.rates = meter_.rates(now);
+    status.refining = connection_ == Connection::connected && described_ && wish_ && !is_moving(now) &&
+                      (quality_ != pace_.best() || !has_come());
     return status;
 }
 

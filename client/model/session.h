@@ -4,8 +4,9 @@
 //
 //   dial -> CubeDescription, TreeState -> SetView (the newest wins) -> Frame -> FrameShown -> ...
 //
-// While the view is being dragged it asks for drafts, then for a normal picture, then for a high one. The
-// wish is kept over a lost link and asked for again on the next.
+// While the view moves it asks for pictures that come fast enough; when it rests, for a normal one and then
+// for a high one, and then for none (pace.h). The wish is kept over a lost link and asked for again on the
+// next.
 
 #include <deque>
 #include <memory>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "client/model/meter.h"
+#include "client/model/pace.h"
 #include "client/model/status.h"
 #include "client/model/viewpoint.h"
 #include "common/view/transfer_function.h"
@@ -31,15 +33,14 @@ struct Wish {
 };
 
 enum class Change {
-    dragging,  // one of many in a row: a draft will do
-    single,
+    dragging,  // one of many in a row
+    single,    // unless another was made a moment ago
 };
 
 class Session {
   public:
-    // Rest before a normal and a high picture is asked for.
-    static constexpr std::chrono::milliseconds rest_for_normal{100};
-    static constexpr std::chrono::milliseconds rest_for_high{300};
+    // The view moves until the last change is this old.
+    static constexpr std::chrono::milliseconds rest_after{200};
     // Between dials: doubled from one failure to the next.
     static constexpr std::chrono::milliseconds first_retry{250};
     static constexpr std::chrono::milliseconds longest_retry{5000};
@@ -55,6 +56,8 @@ class Session {
     void handle(const wire::NetEvent& event, wire::Time now);
     // What is to be seen from now on. The same wish again changes nothing.
     void want(const Wish& wish, Change change, wire::Time now);
+    // How well to draw it from now on.
+    void set_effort(const Effort& effort, wire::Time now);
     // Dials at once when waiting or refused.
     void retry(wire::Time now);
 
@@ -86,6 +89,10 @@ class Session {
     void wait(std::string words, wire::Time now);
 
     bool is_worth_asking_again(wire::Time now) const;
+    bool is_moving(wire::Time now) const { return wish_ && now - changed_at_ < rest_after; }
+    // The picture of the newest view sent has come, and no other is wanted.
+    bool has_come() const { return frame_ && frame_->revision == revision_ && !unsent_; }
+    void refine(wire::Time now);
     void send_if_due(wire::Time now);
     void send_view(wire::Time now);
     void forget_older_than(std::uint64_t revision);
@@ -114,6 +121,7 @@ class Session {
     // What is wanted, and how well it was asked for.
     std::optional<Wish> wish_;
     view::Quality quality_ = view::Quality::normal;
+    bool one_of_many_ = false;  // changes
     bool unsent_ = false;
     wire::Time changed_at_{};
     wire::Time sent_at_{};
@@ -124,6 +132,7 @@ class Session {
     int ready_at_frame_ = 0;  // nodes that were ready when the last frame came
 
     Meter meter_;
+    Pace pace_;
 };
 
 }  // namespace shearwater::model

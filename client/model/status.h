@@ -80,6 +80,7 @@ struct Status {
     Tree tree;
     std::optional<FrameNote> frame;
     Rates rates;
+    bool refining = false;  // the view rests and a better picture of it is to come
 };
 
 // A decoded picture.

@@ -43,6 +43,7 @@ App::App(Window& window, Network& network, AppOptions options)
       desk_(window.fonts(), window.scale()) {
     desk_.wish.tf = options_.tf;
     desk_.wish.level_of_detail = options_.level_of_detail;
+    desk_.effort = options_.effort;
     desk_.status.words = "Starting ...";
 }
 
@@ -190,18 +191,22 @@ void App::send_wish() {
     if (desk_.retry) {
         network_.retry();
     }
+    if (desk_.effort != sent_effort_) {
+        sent_effort_ = desk_.effort;
+        network_.set_effort(sent_effort_);
+    }
     if (desk_.wish != sent_) {
         sent_ = desk_.wish;
         network_.want(sent_, desk_.dragging ? model::Change::dragging : model::Change::single);
     }
 }
 
-// The newest view is seen, whole and in high quality.
+// The newest view is seen, whole and as good as it gets.
 bool App::is_settled() const {
     const model::Status& status = desk_.status;
     return status.connection == model::Connection::connected && status.frame &&
            status.frame->missing.empty() && desk_.picture_revision == status.sent &&
-           desk_.picture_quality == view::Quality::high && desk_.picture.width() == desk_.wish.size.width &&
+           desk_.picture_quality == desk_.best_quality() && desk_.picture.width() == desk_.wish.size.width &&
            desk_.picture.height() == desk_.wish.size.height;
 }
 

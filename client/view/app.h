@@ -12,6 +12,7 @@ namespace shearwater::ui {
 struct AppOptions {
     view::TransferFunction tf = view::default_transfer_function();
     bool level_of_detail = true;
+    model::Effort effort;
     std::string screenshot;  // a file to write the window to once a whole high picture is seen; then it ends
 };
 
@@ -36,6 +37,7 @@ class App {
     const AppOptions options_;
     Desk desk_;
     model::Wish sent_;
+    model::Effort sent_effort_;
     std::optional<view::Lattice> known_lattice_;
     double active_until_ = 0;  // seconds of ImGui's clock
     int settled_passes_ = 0;

@@ -23,6 +23,7 @@ struct Desk {
 
     // What the person sets.
     model::Wish wish;
+    model::Effort effort;
     bool dragging = false;  // something is held down while it changes the wish
     bool retry = false;     // asked to dial now
     bool escape = false;    // the key was pressed in this pass
@@ -32,6 +33,7 @@ struct Desk {
     float px(float nominal) const { return nominal * scale; }
     bool has_cube() const { return status.cube.has_value(); }
     void reset_view() { wish.viewpoint = {.orbit = {}, .projection = wish.viewpoint.projection}; }
+    view::Quality best_quality() const { return effort.fixed.value_or(view::Quality::high); }
     const view::Lattice& lattice() const { return status.cube->lattice; }
 };
 

@@ -39,6 +39,13 @@ void Network::want(const model::Wish& wish, model::Change change) {
     }
 }
 
+void Network::set_effort(const model::Effort& effort) {
+    asio::post(io_, [this, effort] {
+        session_.set_effort(effort, Clock::now());
+        carry_out();
+    });
+}
+
 void Network::retry() {
     asio::post(io_, [this] {
         session_.retry(Clock::now());
@@ -67,6 +74,19 @@ void Network::take_wish() {
     }
     session_.want(wish->wish, wish->change, Clock::now());
     carry_out();
+    look_after_rest();
+}
+
+// Refinement begins when the view has come to rest, not with the hub's next tick.
+void Network::look_after_rest() {
+    rest_.expires_after(model::Session::rest_after);
+    rest_.async_wait([this](const boost::system::error_code& moved) {
+        if (!moved) {
+            session_.handle(wire::Tick{}, Clock::now());
+            carry_out();
+            wake_();
+        }
+    });
 }
 
 void Network::carry_out() {

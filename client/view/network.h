@@ -3,6 +3,7 @@
 // wishes and collects what came.
 
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -23,6 +24,7 @@ class Network {
 
     // The newest wish wins.
     void want(const model::Wish& wish, model::Change change);
+    void set_effort(const model::Effort& effort);
     void retry();
 
     // The newest status and picture, each given once.
@@ -40,12 +42,14 @@ class Network {
 
     void on_event(const wire::NetEvent& event);
     void take_wish();
+    void look_after_rest();
     void carry_out();
 
     boost::asio::io_context io_{1};
     std::function<void()> wake_;
     model::Session session_;  // the network thread's
     link::Hub hub_;           // the network thread's
+    boost::asio::steady_timer rest_{io_};
 
     std::mutex mutex_;
     std::optional<WishMail> wish_;

@@ -111,7 +111,7 @@ void camera_section(Desk& desk) {
     section(desk, "CAMERA");
     model::Viewpoint& viewpoint = desk.wish.viewpoint;
     const bool parallel = viewpoint.projection == view::Projection::parallel;
-    if (switch_between(desk, "Perspective", "Parallel", parallel)) {
+    if (switch_among(desk, {"Perspective", "Parallel"}, parallel ? 1 : 0) != (parallel ? 1 : 0)) {
         model::toggle_projection(viewpoint);
     }
     ImGui::BeginDisabled(parallel || !desk.has_cube());
@@ -187,8 +187,7 @@ std::string latency_text(double seconds) {
     return seconds < 0.9995 ? fmt::format("{:.0f} ms", seconds * 1000) : fmt::format("{:.1f} s", seconds);
 }
 
-void speed_section(const Desk& desk) {
-    section(desk, "SPEED");
+void speed(const Desk& desk) {
     const model::Rates& rates = desk.status.rates;
     const bool any = desk.status.frame.has_value();
     const float left = ImGui::GetCursorPosX();
@@ -199,6 +198,27 @@ void speed_section(const Desk& desk) {
     figure(desk, any ? latency_text(rates.latency_seconds) : "-", "latency", left + step);
     ImGui::SameLine();
     figure(desk, any ? bytes_text(rates.bytes_per_frame) : "-", "a frame", left + 2 * step);
+}
+
+// As the view moves, or always the same.
+void quality(Desk& desk) {
+    section(desk, "QUALITY AND SPEED");
+    std::optional<view::Quality>& fixed = desk.effort.fixed;
+    const int held = fixed ? static_cast<int>(*fixed) + 1 : 0;
+    const int holds = switch_among(desk, {"Auto", "Draft", "Normal", "High"}, held);
+    fixed = holds > 0 ? std::optional(static_cast<view::Quality>(holds - 1)) : std::nullopt;
+    ImGui::BeginDisabled(fixed.has_value());
+    float rate = static_cast<float>(desk.effort.target_rate);
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    if (ImGui::SliderFloat("##rate", &rate, static_cast<float>(model::Effort::min_rate),
+                           static_cast<float>(model::Effort::max_rate), "%.0f frames/s",
+                           ImGuiSliderFlags_AlwaysClamp)) {
+        desk.effort.target_rate = std::round(static_cast<double>(rate));
+    }
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("held while the view moves");
+    }
+    ImGui::EndDisabled();
 }
 
 }  // namespace
@@ -214,7 +234,8 @@ void panel(Desk& desk, ImVec2 from, ImVec2 size) {
     cube_section(desk);
     camera_section(desk);
     colour_section(desk);
-    speed_section(desk);
+    quality(desk);
+    speed(desk);
     tree_list(desk);
     ImGui::End();
 }

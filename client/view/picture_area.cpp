@@ -106,11 +106,43 @@ std::string view_text(const Desk& desk) {
     std::string words =
         fmt::format("az {:.0f}\u00b0  el {:.0f}\u00b0", viewpoint.orbit.azimuth, viewpoint.orbit.elevation);
     if (!desk.picture.empty()) {
-        constexpr const char* qualities[] = {"draft", "normal", "high"};
-        words += fmt::format("   {} \u00d7 {}   {}", desk.picture.width(), desk.picture.height(),
-                             qualities[static_cast<int>(desk.picture_quality)]);
+        words += fmt::format("   {} \u00d7 {}", desk.picture.width(), desk.picture.height());
     }
     return words;
+}
+
+// How well the picture is drawn that is seen, and whether a better one is on its way.
+struct QualityMark {
+    std::string words;
+    ImU32 colour;
+};
+QualityMark quality_mark(const Desk& desk) {
+    constexpr const char* qualities[] = {"draft", "normal", "high"};
+    const std::string name = qualities[static_cast<int>(desk.picture_quality)];
+    if (desk.status.refining) {
+        return {name + ", refining", theme::busy};
+    }
+    return {name, desk.picture_quality == desk.best_quality() ? theme::good : theme::vacant};
+}
+
+// The right end of the status line, from right to left: quality, view. Returns where it begins.
+float view_line(const Desk& desk, float right, float y) {
+    if (!desk.picture.empty()) {
+        const QualityMark mark = quality_mark(desk);
+        // The place of the longest, so that nothing else moves when it changes.
+        right -= ImGui::CalcTextSize("normal, refining").x;
+        ImGui::SetCursorScreenPos({right, y});
+        text(theme::muted, mark.words);
+        right -= desk.px(14);
+        ImGui::SetCursorScreenPos({right, y});
+        dot(desk, mark.colour);
+        right -= desk.px(14);
+    }
+    const std::string view = view_text(desk);
+    right -= ImGui::CalcTextSize(view.c_str()).x;
+    ImGui::SetCursorScreenPos({right, y});
+    text(theme::muted, view);
+    return right;
 }
 
 }  // namespace
@@ -144,14 +176,11 @@ void status_line(const Desk& desk, ImVec2 from, ImVec2 size) {
     ImGui::Begin("status", nullptr, bare);
     ImGui::PushFont(desk.fonts.small);
     const float y = from.y + (size.y - ImGui::GetTextLineHeight()) / 2;
-    const std::string view = view_text(desk);
-    const float view_x = from.x + size.x - desk.px(12) - ImGui::CalcTextSize(view.c_str()).x;
+    const float view_x = view_line(desk, from.x + size.x - desk.px(12), y);
     ImGui::SetCursorScreenPos({from.x + desk.px(12), y});
     ImGui::PushClipRect(from, {view_x - desk.px(12), from.y + size.y}, true);
     text(theme::muted, desk.status.words);
     ImGui::PopClipRect();
-    ImGui::SetCursorScreenPos({view_x, y});
-    text(theme::muted, view);
     ImGui::PopFont();
     ImGui::End();
     ImGui::PopStyleVar(2);

@@ -77,7 +77,7 @@ void tree_list(const Desk& desk) {
     small_text(desk, theme::muted,
                fmt::format("{} nodes, {} ready", tree.nodes.size(), tree.in_phase(pb::PHASE_READY)));
     const float room = ImGui::GetContentRegionAvail().y;
-    ImGui::BeginChild("tree", {0, std::max(room, desk.px(90))}, false);
+    ImGui::BeginChild("tree", {0, std::max(room, desk.px(48))}, false);
     ImGui::PushFont(desk.fonts.small);
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(tree.nodes.size()), ImGui::GetTextLineHeightWithSpacing());

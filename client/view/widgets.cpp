@@ -51,23 +51,27 @@ void dot(const Desk& desk, ImU32 colour) {
     ImGui::SameLine();
 }
 
-bool switch_between(const Desk& desk, const char* first, const char* second, bool second_holds) {
-    const float width = (ImGui::GetContentRegionAvail().x - desk.px(4)) / 2;
-    const auto half = [&](const char* label, bool holds) {
-        if (holds) {
+int switch_among(const Desk& desk, std::initializer_list<const char*> labels, int holds) {
+    const float count = static_cast<float>(labels.size());
+    const float gap = desk.px(4);
+    const float width = (ImGui::GetContentRegionAvail().x - gap * (count - 1)) / count;
+    int holds_now = holds;
+    int i = 0;
+    for (const char* label : labels) {
+        if (i > 0) {
+            ImGui::SameLine(0, gap);
+        }
+        if (i == holds) {
             ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32(50, 84, 132, 255));
             ImGui::PushStyleColor(ImGuiCol_ButtonHovered, IM_COL32(50, 84, 132, 255));
         }
-        const bool pressed = ImGui::Button(label, {width, 0});
-        if (holds) {
+        holds_now = ImGui::Button(label, {width, 0}) ? i : holds_now;
+        if (i == holds) {
             ImGui::PopStyleColor(2);
         }
-        return pressed && !holds;
-    };
-    bool pressed = half(first, !second_holds);
-    ImGui::SameLine(0, desk.px(4));
-    pressed = half(second, second_holds) || pressed;
-    return pressed;
+        ++i;
+    }
+    return holds_now;
 }
 
 void progress_line(const Desk& desk, double fraction, ImU32 colour, float width) {

@@ -2,6 +2,7 @@
 // Small things that the panel and the picture are made of.
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,8 @@ void small_text(const Desk& desk, ImU32 colour, const std::string& text);
 void section(const Desk& desk, const char* title);
 // A filled circle of the line's height, where the cursor is; the next item follows on the same line.
 void dot(const Desk& desk, ImU32 colour);
-// Two buttons side by side, one of which holds. True when the other was pressed.
-bool switch_between(const Desk& desk, const char* first, const char* second, bool second_holds);
+// Buttons side by side, one of which holds. The one that does afterwards.
+int switch_among(const Desk& desk, std::initializer_list<const char*> labels, int holds);
 // A share done, thin.
 void progress_line(const Desk& desk, double fraction, ImU32 colour, float width);
 // The pins' colours from left to right.

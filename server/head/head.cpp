@@ -154,6 +154,7 @@ void Head::on_client_message(Session& session, const wire::Received& received, w
         }
         session.wanted = *std::move(view);
         session.asked = now;
+        give_up_refinements(received.link, session, effects);
         begin_frames(received.link, session, now, effects);
     } else if (const auto* shown = std::get_if<pb::FrameShown>(&received.message.body)) {
         std::erase(session.in_flight, shown->number());
@@ -242,6 +243,21 @@ void Head::describe_cube(wire::LinkId client, Effects& effects) const {
     effects.net.emplace_back(wire::Send{client, wire::message(std::move(description))});
 }
 
+// A view that is wanted in a lower quality than one under way has begun to move, and need not wait for what
+// is no longer looked at. Views of the same quality are left: else none of a drag's would be finished.
+void Head::give_up_refinements(wire::LinkId client, Session& session, Effects& effects) {
+    std::erase_if(frames_, [&](const auto& entry) {
+        const auto& [number, frame] = entry;
+        const bool is_left = frame.client == client && !frame.merged &&
+                             static_cast<int>(frame.view.quality) > static_cast<int>(session.wanted->quality);
+        if (is_left) {
+            branch_.cancel(number, effects.net);
+            std::erase(session.in_flight, number);
+        }
+        return is_left;
+    });
+}
+
 void Head::begin_frames(wire::LinkId client, Session& session, wire::Time now, Effects& effects) {
     while (serving_ && session.wanted && session.in_flight.size() < frames_in_flight) {
         session.latest = std::exchange(session.wanted, std::nullopt);
@@ -264,6 +280,7 @@ void Head::collect(Effects& effects) {
     settle_mapping(effects);
     for (node::MergeJob& job : branch_.take_complete()) {
         if (const auto frame = frames_.find(job.frame); frame != frames_.end()) {
+            frame->second.merged = true;
             effects.jobs.emplace_back(Finish{std::move(job), frame->second.view, frame->second.asked});
         }
     }

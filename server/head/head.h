@@ -81,6 +81,7 @@ class Head {
         wire::LinkId client;
         wire::View view;
         wire::Time asked;
+        bool merged = false;  // it is being finished: only the warp is to come
     };
 
     void on_link_up(const wire::LinkUp& up, Effects& effects);
@@ -97,6 +98,7 @@ class Head {
     void tell_state(Effects& effects);
     void settle_mapping(Effects& effects);
     void describe_cube(wire::LinkId client, Effects& effects) const;
+    void give_up_refinements(wire::LinkId client, Session& session, Effects& effects);
     void begin_frames(wire::LinkId client, Session& session, wire::Time now, Effects& effects);
     void collect(Effects& effects);
     static void fault(wire::LinkId link, const wire::Fault& fault, Effects& effects);

@@ -98,31 +98,6 @@ TEST_F(SessionTest, TheSameWishAgainSendsNothing) {
     EXPECT_THAT(views_, SizeIs(1));
 }
 
-TEST_F(SessionTest, DraftWhileDraggingThenNormalThenHighThenQuiet) {
-    connect();
-    turn(Change::dragging);
-    answer(1);
-    EXPECT_EQ(views_.back().quality, view::Quality::draft);
-    pass(100ms);
-    EXPECT_EQ(views_.back().quality, view::Quality::normal);
-    answer(views_.back().revision);
-    pass(200ms);
-    EXPECT_EQ(views_.back().quality, view::Quality::high);
-    EXPECT_THAT(views_, SizeIs(3));
-    answer(views_.back().revision);
-    EXPECT_EQ(session_.take_picture()->quality, view::Quality::high);
-    pass(10s);
-    EXPECT_THAT(views_, SizeIs(3));
-    turn(Change::dragging);
-    EXPECT_EQ(views_.back().quality, view::Quality::draft);
-}
-
-TEST_F(SessionTest, ASingleChangeIsNotMadeADraft) {
-    connect();
-    turn(Change::single);
-    EXPECT_EQ(views_.back().quality, view::Quality::normal);
-}
-
 TEST_F(SessionTest, ReconnectsWithGrowingPausesAndKeepsTheWish) {
     connect();
     turn();
@@ -191,6 +166,7 @@ TEST_F(SessionTest, RetryDialsAtOnce) {
 
 TEST_F(SessionTest, ASlowLinkIsToldToDeflate) {
     wish_.size = {512, 512};
+    session_.set_effort({.fixed = view::Quality::normal}, now_);  // a view each
     connect();
     image::Image<image::Rgba8> noise(512, 512);
     std::mt19937 random(1);

@@ -107,6 +107,29 @@ std::optional<std::pair<int, int>> ramp_handle(const Picture& screen) {
     return std::nullopt;
 }
 
+// What the dot in the status line says of the picture.
+enum class Mark { none, lesser, refining, best };
+
+Mark mark_of(const Picture& screen) {
+    const std::pair<image::Rgba8, Mark> marks[] = {{{84, 90, 102, 255}, Mark::lesser},
+                                                   {{240, 180, 80, 255}, Mark::refining},
+                                                   {{88, 196, 128, 255}, Mark::best}};
+    for (int y = height - 20; y < height - 6; ++y) {
+        for (int x = 480; x < 656; ++x) {
+            for (const auto& [colour, mark] : marks) {
+                bool is_dot = true;  // letters have no such middles
+                for (int i = 0; i < 9; ++i) {
+                    is_dot = is_dot && screen.at(x - 1 + i % 3, y - 1 + i / 3) == colour;
+                }
+                if (is_dot) {
+                    return mark;
+                }
+            }
+        }
+    }
+    return Mark::none;
+}
+
 // A port that was free a moment ago.
 int free_port() {
     const int s = socket(AF_INET, SOCK_STREAM, 0);
@@ -142,11 +165,12 @@ class WindowTest : public testing::Test {
                 {"LIBGL_ALWAYS_SOFTWARE", "1"}};
     }
     std::string server() const { return "127.0.0.1:" + std::to_string(port_); }
-    void start_tree() {
-        tree_ = std::make_unique<test::Process>(
-            std::vector<std::string>{program("shearwater"), "serve", (folder_ / "cube.fits").string(),
-                                     "--listen", server(), "--threads", "1"},
-            environment(), folder_ / "tree.log");
+    void start_tree() { start_tree((folder_ / "cube.fits").string()); }
+    void start_tree(const std::string& cube) {
+        tree_ =
+            std::make_unique<test::Process>(std::vector<std::string>{program("shearwater"), "serve", cube,
+                                                                     "--listen", server(), "--threads", "1"},
+                                            environment(), folder_ / "tree.log");
     }
     std::vector<std::string> client(std::vector<std::string> more = {}) const {
         std::vector<std::string> command{program("shearwater-client"),
@@ -159,8 +183,9 @@ class WindowTest : public testing::Test {
         command.insert(command.end(), more.begin(), more.end());
         return command;
     }
-    void open_window() {
-        window_ = std::make_unique<test::Process>(client(), environment(), folder_ / "client.log");
+    void open_window(std::vector<std::string> more = {}) {
+        window_ =
+            std::make_unique<test::Process>(client(std::move(more)), environment(), folder_ / "client.log");
     }
 
     // Waits for a screen that `holds` and whose picture then stays for a while: the high one has come.
@@ -238,6 +263,34 @@ TEST_F(WindowTest, MouseAndKeysChangeThePicture) {
     EXPECT_NEAR(light_of(parallel).spread, at_first.spread, at_first.spread * 0.2);
     display_->key("p");
     like(first, "perspective again");
+}
+
+// Of this cube every sample counts, so that a high picture takes a while on any machine.
+TEST_F(WindowTest, QualityFollowsTheCamera) {
+    start_tree("synthetic:random:128");
+    open_window({"--target-rate", "60"});
+    const auto is_best = [](const Picture& p) { return mark_of(p) == Mark::best; };
+    const Picture first = settled(is_best, "the first picture, refined");
+    EXPECT_GT(light_of(first).sum, 1e5);
+
+    display_->press(1, middle_x, middle_y);
+    const auto end = std::chrono::steady_clock::now() + 150s;
+    Picture moving = display_->grab();
+    for (int x = 1; mark_of(moving) != Mark::lesser || difference(moving, first) < 0.002; ++x) {
+        ASSERT_LT(std::chrono::steady_clock::now(), end) << "no lesser picture came during a drag";
+        display_->move(middle_x + x % 200, middle_y);
+        moving = display_->grab();
+    }
+    display_->release(1);
+    const Picture turned = settled(is_best, "the picture after a drag, refined");
+    EXPECT_GT(difference(turned, first), 0.002);
+
+    // By the panel: always drafts, and as it moves again.
+    constexpr int draft_x = 656 + 117, auto_x = 656 + 48, quality_y = 589;
+    display_->click(draft_x, quality_y);
+    other_than(turned, "a draft of the view at rest");
+    display_->click(auto_x, quality_y);
+    like(turned, "the view at rest, refined again");
 }
 
 TEST_F(WindowTest, ColoursAndOpacityChangeThePicture) {

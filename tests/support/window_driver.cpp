@@ -190,6 +190,16 @@ void Display::drag(int button, int x, int y, int dx, int dy, const std::string& 
     park();
 }
 
+void Display::press(int button, int x, int y) {
+    xdotool({"mousemove", std::to_string(x), std::to_string(y), "sleep", "0.1", "mousedown",
+             std::to_string(button), "sleep", "0.25"});
+}
+
+void Display::release(int button) {
+    xdotool({"mouseup", std::to_string(button)});
+    park();
+}
+
 void Display::click(int x, int y, int times) {
     xdotool({"mousemove", std::to_string(x), std::to_string(y), "sleep", "0.1", "click", "--repeat",
              std::to_string(times), "--delay", "120", "1"});

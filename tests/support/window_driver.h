@@ -57,6 +57,10 @@ class Display {
     void drag(int button, int x, int y, int dx, int dy, const std::string& held_key = "");
     void click(int x, int y, int times = 1);
     void wheel(int x, int y, int notches);  // upwards when positive
+    // A drag by parts: presses at (x, y), moves to others, lets go.
+    void press(int button, int x, int y);
+    void move(int x, int y) { xdotool({"mousemove", std::to_string(x), std::to_string(y)}); }
+    void release(int button);
 
   private:
     void park();
