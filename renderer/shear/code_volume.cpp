@@ -27,8 +27,11 @@ Index3 strides_of(const Box& box, int bits) {
     return {1, row, padded(row * box.planes(1), bits / 8)};
 }
 
+// With what may be read beyond the last: whole blocks are turned, so also rows.
 std::size_t bytes_of(const Box& box, const Index3& strides, int bits) {
-    return static_cast<std::size_t>(strides[2] * box.planes(2) * (bits / 8)) + voxel_padding;
+    constexpr std::int64_t rows_beyond = 16;
+    const std::int64_t codes = strides[2] * box.planes(2) + rows_beyond * strides[1];
+    return static_cast<std::size_t>(codes * (bits / 8)) + voxel_padding;
 }
 
 }  // namespace

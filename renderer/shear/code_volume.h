@@ -63,7 +63,7 @@ class CodeVolume {
     std::size_t bytes() const;
 
     // The codes, `Code` having as many bits. That of the node at p lies at offset(p); from one to the next along
-    // an axis it is stride(axis). Behind the last lie voxel_padding bytes more.
+    // an axis it is stride(axis). Behind the last lie a few rows and voxel_padding bytes more.
     template <class Code>
     std::span<const Code> codes() const {
         return {static_cast<const Code*>(codes_.data()), codes_.size() / sizeof(Code)};
