@@ -81,9 +81,9 @@ base::Status run(Options options) {
         return window.error();
     }
     ui::Network network(*server, std::move(*secret), ui::Window::wake);
-    ui::App app(**window, network, {.tf = std::move(*tf),
-                                  .level_of_detail = options.lod == "on",
-                                  .screenshot = options.screenshot});
+    ui::App app(
+        **window, network,
+        {.tf = std::move(*tf), .level_of_detail = options.lod == "on", .screenshot = options.screenshot});
     return app.run();
 }
 

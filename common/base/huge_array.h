@@ -14,7 +14,8 @@ class HugeBytes {
     HugeBytes() = default;
     explicit HugeBytes(std::size_t bytes);
     ~HugeBytes();
-    HugeBytes(HugeBytes&& other) noexcept : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
+    HugeBytes(HugeBytes&& other) noexcept
+        : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
     HugeBytes& operator=(HugeBytes&& other) noexcept {
         std::swap(data_, other.data_);
         std::swap(size_, other.size_);

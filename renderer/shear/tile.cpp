@@ -299,7 +299,7 @@ std::ptrdiff_t Tile<Code>::ahead_of(std::int64_t k, const typename TileVoxels<Co
 
 template <class Code>
 void Tile<Code>::note_met(const VoxelRegion& region) {
-        const std::array<int, 3> axes{plan_.fast_axis(), plan_.slow_axis(), plan_.face().axis};
+    const std::array<int, 3> axes{plan_.fast_axis(), plan_.slow_axis(), plan_.face().axis};
     volume::Index3 first, last;
     for (std::size_t n = 0; n < 3; ++n) {
         const auto a = static_cast<std::size_t>(axes[n]);

@@ -113,20 +113,21 @@ void expect_level(const CodeVolume& volume, const Level& truth) {
     });
     EXPECT_EQ(wrong, 0U);
     const shear::CodeGrid& grid = volume.micro_bricks();
-    for_nodes({{0, 0, 0}, {grid.counts()[0] - 1, grid.counts()[1] - 1, grid.counts()[2] - 1}}, [&](const Index3& at) {
-        Box part;
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto a = static_cast<std::size_t>(axis);
-            part.lo[a] = std::max((grid.first(axis) + at[a]) * grid.edge(), volume.box().lo[a]);
-            part.hi[a] = std::min((grid.first(axis) + at[a] + 1) * grid.edge(), volume.box().hi[a]);
-        }
-        CodeRange range;
-        for_nodes(part, [&](const Index3& p) {
-            const auto code = static_cast<std::uint16_t>(truth.at(p));
-            range.add(code == 0 ? CodeRange{.blanks = true} : CodeRange{code, code, false});
-        });
-        ASSERT_EQ(grid.ranges()[grid.index(at)], range);
-    });
+    for_nodes({{0, 0, 0}, {grid.counts()[0] - 1, grid.counts()[1] - 1, grid.counts()[2] - 1}},
+              [&](const Index3& at) {
+                  Box part;
+                  for (int axis = 0; axis < 3; ++axis) {
+                      const auto a = static_cast<std::size_t>(axis);
+                      part.lo[a] = std::max((grid.first(axis) + at[a]) * grid.edge(), volume.box().lo[a]);
+                      part.hi[a] = std::min((grid.first(axis) + at[a] + 1) * grid.edge(), volume.box().hi[a]);
+                  }
+                  CodeRange range;
+                  for_nodes(part, [&](const Index3& p) {
+                      const auto code = static_cast<std::uint16_t>(truth.at(p));
+                      range.add(code == 0 ? CodeRange{.blanks = true} : CodeRange{code, code, false});
+                  });
+                  ASSERT_EQ(grid.ranges()[grid.index(at)], range);
+              });
 }
 
 TEST(Levels, AreTheSameWhateverTheBox) {
