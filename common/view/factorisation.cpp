@@ -156,7 +156,8 @@ base::Status validate(const Factorisation& factorisation) {
     if (!finite(factorisation.eye) || !finite(factorisation.direction)) {
         return refuse("its eye or direction is not finite");
     }
-    if (factorisation.slice_exponent < -1 || factorisation.slice_exponent > volume::coarsest_level(lattice.n)) {
+    if (factorisation.slice_exponent < -1 ||
+        factorisation.slice_exponent > volume::coarsest_level(lattice.n)) {
         return refuse("its slices are closer than half a voxel, or of a level that the cube does not have");
     }
     if (factorisation.faces.size() > Factorisation::max_faces) {

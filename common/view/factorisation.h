@@ -6,9 +6,9 @@
 //   (u, v) voxel coordinates --- pixel (i, j) of the face --- warp --- pixel (px, py)
 //
 // A face has a principal axis w; u = (w + 1) % 3 and v = (w + 2) % 3 are its in-plane axes. Slice k is the
-// plane of samples at w = k * slice_pitch: a plane of voxels, or one half-way between two, or, where voxels are
-// small in the picture, a plane of the nodes of a coarser level of the cube. The ray of
-// intermediate pixel (i, j) meets it at
+// plane of samples at w = k * slice_pitch: a plane of voxels, or one half-way between two, or, where voxels
+// are small in the picture, a plane of the nodes of a coarser level of the cube. The ray of intermediate
+// pixel (i, j) meets it at
 //   perspective   u = eye_u + (origin_u + i * pitch_u) * (w - eye_w)     "slopes": the cube around the eye
 //   parallel      u = (origin_u + i * pitch_u) + slope_u * w             positions on slice 0
 // and the same for v with j. Both are  u = offset(w) + scale(w) * i.
@@ -37,8 +37,8 @@ Rect bounding(const Rect& a, const Rect& b);  // an empty one counts for nothing
 enum class Quality { draft, normal, high };
 // How densely rays are sampled. Opacity does not depend on it.
 struct Sampling {
-    double resolution = 1;   // intermediate pixels per output pixel along a side
-    int slice_exponent = 0;  // slices lie 2^slice_exponent voxels apart: 0, or -1 for half a voxel
+    double resolution = 1;         // intermediate pixels per output pixel along a side
+    int slice_exponent = 0;        // slices lie 2^slice_exponent voxels apart: 0, or -1 for half a voxel
     bool level_of_detail = false;  // or more, where voxels are smaller than intermediate pixels
 
     bool operator==(const Sampling&) const = default;
@@ -81,7 +81,9 @@ struct Factorisation {
     bool operator==(const Factorisation&) const = default;
 
     int level() const { return slice_exponent > 0 ? slice_exponent : 0; }
-    double slice_pitch() const { return slice_exponent < 0 ? 0.5 : 1 << level(); }  // voxels from slice to slice
+    double slice_pitch() const {
+        return slice_exponent < 0 ? 0.5 : 1 << level();
+    }  // voxels from slice to slice
     double slice_place(std::int64_t k) const { return static_cast<double>(k) * slice_pitch(); }
     // Of the plane at w, in voxels along the face's axis.
     SliceMap slice_map(const Face& face, double w) const;
@@ -90,8 +92,8 @@ struct Factorisation {
 };
 
 // The faces that the picture needs, each just large enough for its part of the picture and of the cube, and
-// one level of detail for all: the coarsest whose voxels are nowhere larger than an intermediate pixel. The
-// camera and size are valid.
+// one level of detail for all: that whose voxels are nearest to an intermediate pixel where they are largest.
+// The camera and size are valid.
 Factorisation factorise(const Camera& camera, const ImageSize& size, const Lattice& lattice,
                         const Sampling& sampling);
 

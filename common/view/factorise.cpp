@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -244,8 +245,8 @@ void plan_parallel(std::vector<Plan>& plans, const Factorisation& factorisation,
     add_plan(plans, face, seen, u, v, resolution);
 }
 
-// The distance along a face's axis of the nearest plane, `nearest` or beyond, where [0, last] meets what is seen
-// between two slopes by an eye at `eye`.
+// The distance along a face's axis of the nearest plane, `nearest` or beyond, where [0, last] meets what is
+// seen between two slopes by an eye at `eye`.
 double seen_from(double nearest, double eye, double least_slope, double greatest_slope, double last) {
     // The line of the least slope is to be below `last` there, that of the greatest above 0.
     if (eye + least_slope * nearest > last) {
@@ -257,8 +258,8 @@ double seen_from(double nearest, double eye, double least_slope, double greatest
     return nearest;
 }
 
-// Voxels from one intermediate pixel to the next where they are fewest, on the nearest plane of the cube that a
-// face sees.
+// Voxels from one intermediate pixel to the next where they are fewest, on the nearest plane of the cube that
+// a face sees.
 double least_voxels_per_pixel(const Factorisation& factorisation, const Plan& plan) {
     const Face& face = plan.face;
     const double fewest = std::min(face.pitch.x, face.pitch.y);
@@ -285,7 +286,8 @@ int level_of_detail(const Factorisation& factorisation, const std::vector<Plan>&
         least = std::min(least, least_voxels_per_pixel(factorisation, plan));
     }
     int level = 0;
-    while (level < volume::coarsest_level(factorisation.lattice.n) && std::ldexp(1.0, level + 1) <= least) {
+    while (level < volume::coarsest_level(factorisation.lattice.n) &&
+           std::ldexp(1.0, level + 1) <= std::numbers::sqrt2 * least) {
         ++level;
     }
     return level;
@@ -296,9 +298,8 @@ int level_of_detail(const Factorisation& factorisation, const std::vector<Plan>&
 Factorisation factorise(const Camera& camera, const ImageSize& size, const Lattice& lattice,
                         const Sampling& sampling) {
     const Rays rays = in_voxel_space(rays_of(camera, size), lattice);
-    Factorisation factorisation{.projection = camera.projection,
-                                .lattice = lattice,
-                                .slice_exponent = sampling.slice_exponent};
+    Factorisation factorisation{
+        .projection = camera.projection, .lattice = lattice, .slice_exponent = sampling.slice_exponent};
     const Polygon picture = whole_picture(size);
     std::vector<Plan> plans;
     if (camera.projection == Projection::perspective) {

@@ -1,6 +1,6 @@
 #pragma once
-// The coarser levels of a cube: level L has nodes at the voxel indices that are multiples of 2^L along every axis, up
-// to the first that is not before the cube's last voxel. Level 0 is the voxels.
+// The coarser levels of a cube: level L has nodes at the voxel indices that are multiples of 2^L along every
+// axis, up to the first that is not before the cube's last voxel. Level 0 is the voxels.
 //
 //   level 0   o   o   o   o   o   o       a node is made from those of the next finer level that are at most
 //             | \ | / | \ | / | \ |       one of its nodes away along every axis
@@ -26,8 +26,8 @@ Box nodes_of(const Box& box, int level);
 // The nodes of the next finer level, with the given last ones, that nodes are made from.
 Box made_from(const Box& nodes, const Index3& last_finer);
 
-// Of every level of a cube of n voxels, from 0 to the coarsest, the nodes_of a box and those that nodes_of it on
-// coarser levels are made from. On level 0 it is what whoever renders the box has to read.
+// Of every level of a cube of n voxels, from 0 to the coarsest, the nodes_of a box and those that nodes_of it
+// on coarser levels are made from. On level 0 it is what whoever renders the box has to read.
 std::vector<Box> nodes_to_make(const Box& box, const Index3& n);
 
 }  // namespace shearwater::volume

@@ -98,8 +98,7 @@ base::Status draw_axes(const Flags& flags, const Case& drawn, InProcess& cube,
     // By turns, so that a slow phase of the machine falls on all of them.
     for (int i = -1; i < flags.common.frames; ++i) {
         for (int steps = 0; steps < 3; ++steps) {
-            const FrameTimes times =
-                cube.draw(along_axis(*camera, steps), size, view.sampling(), drawn.tf);
+            const FrameTimes times = cube.draw(along_axis(*camera, steps), size, view.sampling(), drawn.tf);
             if (i >= 0) {
                 frames.at(static_cast<std::size_t>(steps)).push_back(times);
             }

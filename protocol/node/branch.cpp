@@ -170,7 +170,8 @@ std::optional<wire::pb::NeedVoxels> Branch::receive(wire::LinkId link, const wir
     } else if (const auto* need = std::get_if<wire::pb::NeedVoxels>(&message.body)) {
         const auto box = wire::box_from(need->box());
         if (!box || !child->spec.reads.contains(*box)) {
-            fault(link, {wire::pb::REASON_INVALID, "voxels were asked for outside what the child reads"}, effects);
+            fault(link, {wire::pb::REASON_INVALID, "voxels were asked for outside what the child reads"},
+                  effects);
             return std::nullopt;
         }
         voxel_routes_.insert_or_assign(static_cast<int>(need->place()), link);

@@ -240,7 +240,8 @@ Parsed<view::Factorisation> factorisation_from(const pb::Factorisation& factoris
         return lattice.error();
     }
     if (factorisation.slice_exponent() < -1 || factorisation.slice_exponent() > volume::max_level) {
-        return invalid("factorisation.slice_exponent: -1 to " + std::to_string(volume::max_level) + " is wanted");
+        return invalid("factorisation.slice_exponent: -1 to " + std::to_string(volume::max_level) +
+                       " is wanted");
     }
     auto faces = faces_from(factorisation);
     if (!faces) {

@@ -69,10 +69,10 @@ base::Result<BrickVolume> BrickVolume::load(volume::VoxelSource& source, const B
     volume.mapping_ = mapping;
     try {
         CodeVolume voxels(volume::nodes_to_make(box, n).front(), mapping.bits);
-        const auto filled = mapping.bits == 8 ? fill<std::uint8_t>(voxels, mapping, source, workers, progress,
-                                                                   stop, slab_bytes)
-                                              : fill<std::uint16_t>(voxels, mapping, source, workers, progress,
-                                                                    stop, slab_bytes);
+        const auto filled =
+            mapping.bits == 8
+                ? fill<std::uint8_t>(voxels, mapping, source, workers, progress, stop, slab_bytes)
+                : fill<std::uint16_t>(voxels, mapping, source, workers, progress, stop, slab_bytes);
         if (!filled) {
             return filled.error();
         }
@@ -147,29 +147,30 @@ base::Status read_chunks(volume::VoxelSource& source, const Box& box, std::size_
 }  // namespace
 
 template <class Code>
-base::Status BrickVolume::fill(CodeVolume& voxels, const volume::Mapping& mapping, volume::VoxelSource& source,
-                               base::Workers& workers, const volume::Progress& progress,
-                               const std::stop_token& stop, std::size_t slab_bytes) {
+base::Status BrickVolume::fill(CodeVolume& voxels, const volume::Mapping& mapping,
+                               volume::VoxelSource& source, base::Workers& workers,
+                               const volume::Progress& progress, const std::stop_token& stop,
+                               std::size_t slab_bytes) {
     const volume::Quantiser quantiser(mapping);
     const std::span<Code> codes = voxels.codes<Code>();
     const auto place = [&](const Index3& p) { return voxels.offset(p); };
     const bool alone = !source.concurrent();
-    return read_chunks(
-        source, voxels.box(), slab_bytes, workers, progress, stop,
-        [&](const Box& chunk, std::span<const float> values) {
-            if (!alone) {
-                quantise<Code>(quantiser, values, chunk, codes, place);
-                return;
-            }
-            // The reading thread hands out what it has read, plane by plane.
-            const auto plane = static_cast<std::size_t>(chunk.planes(0) * chunk.planes(1));
-            workers.for_each(chunk.planes(2), [&](std::int64_t z) {
-                Box slice = chunk;
-                slice.lo[2] = slice.hi[2] = chunk.lo[2] + z;
-                quantise<Code>(quantiser, values.subspan(static_cast<std::size_t>(z) * plane, plane), slice,
-                               codes, place);
-            });
-        });
+    return read_chunks(source, voxels.box(), slab_bytes, workers, progress, stop,
+                       [&](const Box& chunk, std::span<const float> values) {
+                           if (!alone) {
+                               quantise<Code>(quantiser, values, chunk, codes, place);
+                               return;
+                           }
+                           // The reading thread hands out what it has read, plane by plane.
+                           const auto plane = static_cast<std::size_t>(chunk.planes(0) * chunk.planes(1));
+                           workers.for_each(chunk.planes(2), [&](std::int64_t z) {
+                               Box slice = chunk;
+                               slice.lo[2] = slice.hi[2] = chunk.lo[2] + z;
+                               quantise<Code>(quantiser,
+                                              values.subspan(static_cast<std::size_t>(z) * plane, plane),
+                                              slice, codes, place);
+                           });
+                       });
 }
 
 bool BrickVolume::build(CodeVolume voxels, base::Workers& workers, const std::stop_token& stop) {

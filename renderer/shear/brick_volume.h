@@ -1,6 +1,6 @@
 #pragma once
-// A leaf's sub-volume as quantised codes: its voxels, and the coarser levels of them that stand in where voxels
-// are smaller than pixels. What is drawn is counted by bricks of 32^3 cells.
+// A leaf's sub-volume as quantised codes: its voxels, and the coarser levels of them that stand in where
+// voxels are smaller than pixels. What is drawn is counted by bricks of 32^3 cells.
 
 #include <stop_token>
 #include <vector>
@@ -19,8 +19,8 @@ class BrickVolume {
     static constexpr std::int64_t edge = 32;
 
     // Reads the planes of `box` from a source, and those beyond that its coarser levels are made from
-    // (volume::nodes_to_make), slab by slab, and quantises them in parallel. Peak memory is the codes of what is read, its
-    // levels and `slab_bytes` of floats. Cancelled between slabs, or between planes of a level.
+    // (volume::nodes_to_make), slab by slab, and quantises them in parallel. Peak memory is the codes of what
+    // is read, its levels and `slab_bytes` of floats. Cancelled between slabs, or between planes of a level.
     static base::Result<BrickVolume> load(volume::VoxelSource& source, const volume::Box& box,
                                           const volume::Index3& n, const volume::Mapping& mapping,
                                           base::Workers& workers, const volume::Progress& progress = {},

@@ -21,8 +21,9 @@ enum class Content : std::uint8_t {
 
 struct Classification {
     OpacityTable table;
-    std::vector<std::vector<Content>> micro_bricks;  // of each level, as CodeVolume::micro_bricks() counts them
-    std::vector<std::uint8_t> opaque;                // as BrickVolume::bricks() does: whether one in it is not transparent
+    std::vector<std::vector<Content>>
+        micro_bricks;                  // of each level, as CodeVolume::micro_bricks() counts them
+    std::vector<std::uint8_t> opaque;  // as BrickVolume::bricks() does: whether one in it is not transparent
 };
 
 Classification classify(const BrickVolume& volume, const view::TransferFunction& tf, base::Workers& workers);

@@ -111,12 +111,13 @@ bool coarsen_codes(const CodeVolume& fine, CodeVolume& coarse, const Index3& las
 
 }  // namespace
 
-bool coarsen(const CodeVolume& fine, CodeVolume& coarse, int level, const Index3& n,
-             base::Workers& workers, const std::stop_token& stop) {
+bool coarsen(const CodeVolume& fine, CodeVolume& coarse, int level, const Index3& n, base::Workers& workers,
+             const std::stop_token& stop) {
     const Index3 last = volume::last_nodes(n, level - 1);
-    base::check(fine.box().contains(volume::made_from(coarse.box(), last)), "a level is made from the whole finer one");
+    base::check(fine.box().contains(volume::made_from(coarse.box(), last)),
+                "a level is made from the whole finer one");
     return fine.bits() == 8 ? coarsen_codes<std::uint8_t>(fine, coarse, last, workers, stop)
-                     : coarsen_codes<std::uint16_t>(fine, coarse, last, workers, stop);
+                            : coarsen_codes<std::uint16_t>(fine, coarse, last, workers, stop);
 }
 
 }  // namespace shearwater::shear

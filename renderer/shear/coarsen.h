@@ -1,7 +1,7 @@
 #pragma once
-// How the nodes of a coarser level (volume/levels.h) are made: each is the mean of those of the finer one that are
-// at most one away along every axis, weighed 1 2 1; blank ones count for nothing, and where they are more than half
-// of the weight so is the mean. Beyond the cube's ends the last plane goes on.
+// How the nodes of a coarser level (volume/levels.h) are made: each is the mean of those of the finer one
+// that are at most one away along every axis, weighed 1 2 1; blank ones count for nothing, and where they are
+// more than half of the weight so is the mean. Beyond the cube's ends the last plane goes on.
 
 #include <stop_token>
 
@@ -11,8 +11,8 @@
 
 namespace shearwater::shear {
 
-// Makes all nodes of a volume of level `level` of a cube of n voxels from those of the next finer one, which hold
-// what they are made_from; false if stopped before.
+// Makes all nodes of a volume of level `level` of a cube of n voxels from those of the next finer one, which
+// hold what they are made_from; false if stopped before.
 bool coarsen(const CodeVolume& fine, CodeVolume& coarse, int level, const volume::Index3& n,
              base::Workers& workers, const std::stop_token& stop);
 

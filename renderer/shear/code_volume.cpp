@@ -14,8 +14,8 @@ using volume::Index3;
 
 namespace {
 
-// A little more than so many codes, if need be: rows or planes that lie a large power of two apart would compete
-// for the same few lines of the caches.
+// A little more than so many codes, if need be: rows or planes that lie a large power of two apart would
+// compete for the same few lines of the caches.
 std::int64_t padded(std::int64_t codes, std::int64_t code_bytes) {
     constexpr std::int64_t vector = 16, line = 64, far = 512;
     const std::int64_t bytes = (codes * code_bytes + vector - 1) / vector * vector;
@@ -27,8 +27,11 @@ Index3 strides_of(const Box& box, int bits) {
     return {1, row, padded(row * box.planes(1), bits / 8)};
 }
 
+// With what may be read beyond the last: whole blocks are turned, so also rows.
 std::size_t bytes_of(const Box& box, const Index3& strides, int bits) {
-    return static_cast<std::size_t>(strides[2] * box.planes(2) * (bits / 8)) + voxel_padding;
+    constexpr std::int64_t rows_beyond = 16;
+    const std::int64_t codes = strides[2] * box.planes(2) + rows_beyond * strides[1];
+    return static_cast<std::size_t>(codes * (bits / 8)) + voxel_padding;
 }
 
 }  // namespace
@@ -91,8 +94,8 @@ void CodeVolume::crop(const Box& box) {
 bool CodeVolume::survey(base::Workers& workers, const std::stop_token& stop) {
     micro_bricks_ = CodeGrid(box_, micro_edge);
     const auto over = [&]<class Code>(std::span<const Code> codes) {
-        return shear::survey(CodesOfBox<Code>{codes.data(), box_, stride(1), stride(2)}, micro_bricks_, workers,
-                             stop);
+        return shear::survey(CodesOfBox<Code>{codes.data(), box_, stride(1), stride(2)}, micro_bricks_,
+                             workers, stop);
     };
     return bits_ == 8 ? over(std::as_const(*this).codes<std::uint8_t>())
                       : over(std::as_const(*this).codes<std::uint16_t>());

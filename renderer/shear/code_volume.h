@@ -2,9 +2,9 @@
 // Codes of the nodes in a box of some level of a cube: one copy that serves all three principal axes.
 //
 // Codes lie in rows along axis 0, planes of rows, and so on, as in the cube, so that a tile's samples on a
-// slice lie in a few long rows whatever the axis. What a transfer function may pass over is told by micro-bricks
-// of 8^3 cells on a grid global to the level, each with the codes that occur on its planes, those it shares with
-// its neighbours included. On level 0 the nodes are the cube's voxels.
+// slice lie in a few long rows whatever the axis. What a transfer function may pass over is told by
+// micro-bricks of 8^3 cells on a grid global to the level, each with the codes that occur on its planes,
+// those it shares with its neighbours included. On level 0 the nodes are the cube's voxels.
 
 #include <cstdint>
 #include <span>
@@ -62,8 +62,8 @@ class CodeVolume {
     int bits() const { return bits_; }
     std::size_t bytes() const;
 
-    // The codes, `Code` having as many bits. That of the node at p lies at offset(p); from one to the next along
-    // an axis it is stride(axis). Behind the last lie voxel_padding bytes more.
+    // The codes, `Code` having as many bits. That of the node at p lies at offset(p); from one to the next
+    // along an axis it is stride(axis). Behind the last lie a few rows and voxel_padding bytes more.
     template <class Code>
     std::span<const Code> codes() const {
         return {static_cast<const Code*>(codes_.data()), codes_.size() / sizeof(Code)};

@@ -42,8 +42,8 @@ class FacePlan {
 
     // Where voxels of the plane at w lie under pixels, fast as u and slow as v.
     view::SliceMap slice_map(double w) const;
-    // The level of detail that is drawn, and the same in its nodes: where slice k lies, and where nodes of a plane
-    // that lies at `place` of them lie under pixels.
+    // The level of detail that is drawn, and the same in its nodes: where slice k lies, and where nodes of a
+    // plane that lies at `place` of them lie under pixels.
     int level() const { return factorisation_.level(); }
     double node_place(std::int64_t k) const { return std::ldexp(factorisation_.slice_place(k), -level()); }
     view::SliceMap node_map(double place) const;

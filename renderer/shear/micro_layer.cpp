@@ -27,7 +27,8 @@ MicroLayer::MicroLayer(const CodeVolume& codes, const Classification& classifica
     : plan_(plan), grid_(codes.micro_bricks()) {
     const volume::Index3& counts = grid_.counts();
     const volume::Index3 strides{1, counts[0], counts[0] * counts[1]};
-    first_ = classification.micro_bricks[static_cast<std::size_t>(plan.level())].data() + layer * strides[static_cast<std::size_t>(plan.face().axis)];
+    first_ = classification.micro_bricks[static_cast<std::size_t>(plan.level())].data() +
+             layer * strides[static_cast<std::size_t>(plan.face().axis)];
     fast_stride_ = strides[static_cast<std::size_t>(plan.fast_axis())];
     slow_stride_ = strides[static_cast<std::size_t>(plan.slow_axis())];
 }

@@ -101,9 +101,8 @@ std::vector<Window> render(const BrickVolume& volume, const Classification& clas
         windows.push_back({.face = static_cast<int>(face),
                            .rect = rect,
                            .pixels = image::Image<image::RgbaF>(rect.width(), rect.height())});
-        volume.mapping().bits == 8
-            ? render_window<std::uint8_t>(frame, plan, windows.back(), workers, stop)
-            : render_window<std::uint16_t>(frame, plan, windows.back(), workers, stop);
+        volume.mapping().bits == 8 ? render_window<std::uint8_t>(frame, plan, windows.back(), workers, stop)
+                                   : render_window<std::uint16_t>(frame, plan, windows.back(), workers, stop);
     }
     if (stats != nullptr) {
         *stats = count(frame);

@@ -29,7 +29,8 @@ class Tile {
     static constexpr int height = tallest_tile;
 
     // All have to outlive it.
-    Tile(const BrickVolume& volume, const Classification& classification, const FacePlan& plan, BricksMet& met);
+    Tile(const BrickVolume& volume, const Classification& classification, const FacePlan& plan,
+         BricksMet& met);
 
     // Renders the pixels of a rectangle of at most width x height, from nothing.
     void render(const view::Rect& rect);

@@ -13,7 +13,8 @@
 
 namespace shearwater::shear {
 
-// Nodes of the level that is drawn, from lo to hi, both included, along a face's fast, slow and principal axes.
+// Nodes of the level that is drawn, from lo to hi, both included, along a face's fast, slow and principal
+// axes.
 struct VoxelRegion {
     std::array<std::int64_t, 3> lo, hi;
 

@@ -108,9 +108,10 @@ FloatCube ball(const Lattice& lattice, double radius) {
     });
 }
 
-// Of the pixels whose rays pass well inside the ball: tau times the chord 2 sqrt(R^2 - b^2) for a ray that passes
-// its centre at the distance b, where that is longer than `shortest`.
-Worst ball_error(const Image<RgbaF>& picture, const Camera& camera, double radius, double tau, double shortest) {
+// Of the pixels whose rays pass well inside the ball: tau times the chord 2 sqrt(R^2 - b^2) for a ray that
+// passes its centre at the distance b, where that is longer than `shortest`.
+Worst ball_error(const Image<RgbaF>& picture, const Camera& camera, double radius, double tau,
+                 double shortest) {
     const view::Rays rays = view::rays_of(camera, {picture.width(), picture.height()});
     const bool perspective = camera.projection == view::Projection::perspective;
     Worst worst;
@@ -177,7 +178,8 @@ TEST(SlabTest, HasTheSameOpacityOnEveryLevel) {
             auto f = view::factorise(camera, size, lattice, {1});
             for (f.slice_exponent = 1; f.slice_exponent < volume.levels(); ++f.slice_exponent) {
                 const auto windows = shear::render(volume, f, flat(tau), workers);
-                EXPECT_LT(window_error(f, windows, tau).error, 2e-4) << name << ", level " << f.slice_exponent;
+                EXPECT_LT(window_error(f, windows, tau).error, 2e-4)
+                    << name << ", level " << f.slice_exponent;
                 const auto picture = image::warp_float(f, windows, camera, size, workers);
                 const Worst worst = picture_error(picture, lattice, camera, tau, f.slice_pitch());
                 EXPECT_LT(worst.error, 0.02) << name << ", level " << f.slice_exponent;

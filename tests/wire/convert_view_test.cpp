@@ -194,7 +194,7 @@ TEST(FactorisationConversion, Hostile) {
         refused("pitch_u", [&](pb::Factorisation& f) { f.mutable_faces(1)->set_pitch_u(value); });
         refused("pitch_v", [&](pb::Factorisation& f) { f.mutable_faces(1)->set_pitch_v(value); });
     }
-    for (const int exponent : {-2, 1, 6, 1000}) {  // this cube has no level but its voxels
+    for (const int exponent : {-2, 4, 6, 1000}) {  // this cube has three levels besides its voxels
         refused("slice_exponent", [&](pb::Factorisation& f) { f.set_slice_exponent(exponent); });
     }
     refused("projection", [](pb::Factorisation& f) { f.set_projection(static_cast<pb::Projection>(7)); });
