@@ -248,9 +248,8 @@ void plan_parallel(std::vector<Plan>& plans, const Factorisation& factorisation,
 Factorisation factorise(const Camera& camera, const ImageSize& size, const Lattice& lattice,
                         const Sampling& sampling) {
     const Rays rays = in_voxel_space(rays_of(camera, size), lattice);
-    Factorisation factorisation{.projection = camera.projection,
-                                .lattice = lattice,
-                                .slice_exponent = sampling.slice_exponent};
+    Factorisation factorisation{
+        .projection = camera.projection, .lattice = lattice, .slice_exponent = sampling.slice_exponent};
     const Polygon picture = whole_picture(size);
     std::vector<Plan> plans;
     if (camera.projection == Projection::perspective) {

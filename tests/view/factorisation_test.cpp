@@ -116,7 +116,8 @@ TEST(Factorise, LeavesOutFacesThatSeeNothing) {
     EXPECT_TRUE(factorise(away, {64, 64}, lattice, {1}).faces.empty());
     const Camera inside = camera_on({30, 20, 5}, lattice, Projection::perspective, 170);
     EXPECT_GE(factorise(inside, {64, 64}, lattice, {1}).faces.size(), 5U);
-    EXPECT_EQ(factorise(camera_on({}, lattice, Projection::parallel), {64, 64}, lattice, {1}).faces.size(), 1U);
+    EXPECT_EQ(factorise(camera_on({}, lattice, Projection::parallel), {64, 64}, lattice, {1}).faces.size(),
+              1U);
 }
 
 TEST(Step, IsTheDistanceBetweenTwoSlicesAlongTheRay) {
