@@ -31,7 +31,8 @@ struct Rgba8 {
 // For an image that is written to from end to end: its pixels are not made transparent first.
 struct Unfilled {};
 
-// A dense image, row 0 first, move-only, zeroed unless told otherwise. Functions take Image& or spans of rows.
+// A dense image, row 0 first, move-only, zeroed unless told otherwise. Functions take Image& or spans of
+// rows.
 template <class Pixel>
 class Image {
   public:
@@ -52,7 +53,9 @@ class Image {
     int height() const { return height_; }
     bool empty() const { return pixels_.empty(); }
     std::span<Pixel> row(int y) { return {pixels_.data() + start(y), static_cast<std::size_t>(width_)}; }
-    std::span<const Pixel> row(int y) const { return {pixels_.data() + start(y), static_cast<std::size_t>(width_)}; }
+    std::span<const Pixel> row(int y) const {
+        return {pixels_.data() + start(y), static_cast<std::size_t>(width_)};
+    }
     Pixel& at(int x, int y) { return row(y)[static_cast<std::size_t>(x)]; }
     const Pixel& at(int x, int y) const { return row(y)[static_cast<std::size_t>(x)]; }
     std::span<Pixel> pixels() { return pixels_; }

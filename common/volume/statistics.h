@@ -13,8 +13,9 @@ namespace shearwater::volume {
 // where the box ends at the cube's edge. So the histograms of a division's boxes add up to the cube's.
 // Reads slab by slab, at most `slab_bytes` of floats at a time, on all workers at once where the source
 // allows it. `progress` is told on the calling thread; `stop` is heeded between slabs.
-base::Result<Histogram> count_values(VoxelSource& source, const Box& box, const Index3& n, base::Workers& workers,
-                                     const Progress& progress = {}, const std::stop_token& stop = {},
+base::Result<Histogram> count_values(VoxelSource& source, const Box& box, const Index3& n,
+                                     base::Workers& workers, const Progress& progress = {},
+                                     const std::stop_token& stop = {},
                                      std::size_t slab_bytes = std::size_t{16} << 20);
 
 }  // namespace shearwater::volume
