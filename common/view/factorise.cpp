@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -287,7 +286,7 @@ int level_of_detail(const Factorisation& factorisation, const std::vector<Plan>&
     }
     int level = 0;
     while (level < volume::coarsest_level(factorisation.lattice.n) &&
-           std::ldexp(1.0, level + 1) <= std::numbers::sqrt2 * least) {
+           std::ldexp(1.0, level + 1) <= least) {
         ++level;
     }
     return level;

@@ -19,13 +19,6 @@ constexpr std::int64_t micro_edge = CodeVolume::micro_edge;
 // one opacity in a hundred, at most half of which a sample is wrong by, this way or that.
 constexpr float jump_seen = 1.0F / 64;
 
-// The coordinates that the first and the last of some pixels lie at, the lesser first.
-std::pair<double, double> ends_of(double offset, double scale, int first, int end) {
-    const double a = offset + scale * first;
-    const double b = offset + scale * (end - 1);
-    return {std::min(a, b), std::max(a, b)};
-}
-
 // Of a range of pixels those whose samples lie in the voxels [lo, hi), or on the sub-volume's side of an end
 // of it where `open`. Neighbours' ranges meet.
 PixelRange pixels_within(const PixelRange& range, double offset, double scale, double lo, double hi,
@@ -145,39 +138,6 @@ Slice<Code> Tile<Code>::slice_of(std::int64_t k) const {
         .lengths = nullptr};
 }
 
-// The voxels that the samples of some slices lie between.
-template <class Code>
-VoxelRegion Tile<Code>::region_of(Slices slices, std::span<const std::int64_t> numbers) const {
-    const volume::Box& box = codes_.box();
-    const std::array<int, 3> axes{plan_.fast_axis(), plan_.slow_axis(), plan_.face().axis};
-    std::array<std::pair<double, double>, 3> ends;
-    ends.fill({1e300, -1e300});
-    const auto add = [](std::pair<double, double>& to, const std::pair<double, double>& more) {
-        to = {std::min(to.first, more.first), std::max(to.second, more.second)};
-    };
-    for (std::size_t n = 0; n < slices.size(); ++n) {
-        const Slice<Code>& slice = slices[n];
-        const Rect& pixels = slice.pixels;
-        add(ends[0],
-            ends_of(slice.fast_offset, slice.fast_scale, pixels.x0 + rect_.x0, pixels.x1 + rect_.x0));
-        add(ends[1],
-            ends_of(slice.slow_offset, slice.slow_scale, pixels.y0 + rect_.y0, pixels.y1 + rect_.y0));
-        const double w = plan_.node_place(numbers[n]);
-        add(ends[2], {w, w});
-    }
-    VoxelRegion region;
-    for (std::size_t n = 0; n < 3; ++n) {
-        const std::int64_t lo = box.lo[static_cast<std::size_t>(axes[n])];
-        const std::int64_t hi = box.hi[static_cast<std::size_t>(axes[n])];
-        region.lo[n] = std::clamp(static_cast<std::int64_t>(std::floor(ends[n].first)), lo, hi - 1);
-        region.hi[n] = std::clamp(static_cast<std::int64_t>(std::floor(ends[n].second)) + 1, lo + 1, hi);
-    }
-    // A slice on a plane needs none behind it.
-    region.hi[2] = std::clamp(static_cast<std::int64_t>(std::ceil(ends[2].second)), region.lo[2],
-                              box.hi[static_cast<std::size_t>(axes[2])]);
-    return region;
-}
-
 // Slices that lie in one layer of micro-bricks, each with some pixels.
 template <class Code>
 void Tile<Code>::render_slices(Slices slices, std::span<const std::int64_t> numbers) {
@@ -266,69 +226,6 @@ void Tile<Code>::render_part(Slices slices, std::span<const std::int64_t> number
     if (taken > 0) {
         note_met(region);
     }
-}
-
-// What the tile's pixels need of the planes lo to hi across the principal axis, both included.
-template <class Code>
-VoxelRegion Tile<Code>::between_planes(std::int64_t lo, std::int64_t hi) const {
-    const std::array<int, 2> axes{plan_.fast_axis(), plan_.slow_axis()};
-    std::array<std::pair<double, double>, 2> ends;
-    ends.fill({1e300, -1e300});
-    for (const std::int64_t w : {lo, hi}) {
-        const SliceMap map = plan_.node_map(static_cast<double>(w));
-        const auto add = [](std::pair<double, double>& to, const std::pair<double, double>& more) {
-            to = {std::min(to.first, more.first), std::max(to.second, more.second)};
-        };
-        add(ends[0], ends_of(map.u_offset, map.u_scale, rect_.x0, rect_.x1));
-        add(ends[1], ends_of(map.v_offset, map.v_scale, rect_.y0, rect_.y1));
-    }
-    VoxelRegion region{{0, 0, lo}, {0, 0, hi}};
-    for (std::size_t n = 0; n < 2; ++n) {
-        const auto first = static_cast<double>(codes_.box().lo[static_cast<std::size_t>(axes[n])]);
-        const auto last = static_cast<double>(codes_.box().hi[static_cast<std::size_t>(axes[n])]);
-        region.lo[n] = static_cast<std::int64_t>(std::clamp(std::floor(ends[n].first), first, last));
-        region.hi[n] = static_cast<std::int64_t>(std::clamp(std::floor(ends[n].second) + 1, first, last));
-    }
-    return region;
-}
-
-// The region and what the tile needs of the planes about it, up to whole blocks of them: what is turned
-// together.
-template <class Code>
-VoxelRegion Tile<Code>::with_block(const VoxelRegion& region) const {
-    constexpr std::int64_t block = 2 * micro_edge;
-    const auto axis = static_cast<std::size_t>(plan_.face().axis);
-    const std::int64_t lo = std::max(region.lo[2] / block * block, codes_.box().lo[axis]);
-    const std::int64_t hi = std::max(region.hi[2], std::min(lo + block - 1, codes_.box().hi[axis]));
-    VoxelRegion more = between_planes(lo, hi);
-    for (std::size_t n = 0; n < 2; ++n) {
-        more.lo[n] = std::min(more.lo[n], region.lo[n]);
-        more.hi[n] = std::max(more.hi[n], region.hi[n]);
-    }
-    return more;
-}
-
-// What the tile will need and may fetch meanwhile: of the planes behind a region's, as many again. Where
-// voxels are adjacent along the principal axis, a line of the cache holds those of more planes: then a part
-// of what the tile needs a line later.
-template <class Code>
-VoxelRegion Tile<Code>::behind(const VoxelRegion& region) const {
-    constexpr std::int64_t planes_of_line = cache_line / static_cast<std::int64_t>(sizeof(Code));
-    constexpr std::int64_t parts = planes_of_line / micro_edge;
-    const auto axis = static_cast<std::size_t>(plan_.face().axis);
-    const bool adjacent = axis == 0;
-    const std::int64_t away = plan_.face().sign * (adjacent ? planes_of_line : micro_edge);
-    const auto plane = [&](std::int64_t w) {
-        return std::clamp(w + away, codes_.box().lo[axis], codes_.box().hi[axis]);
-    };
-    VoxelRegion next = between_planes(plane(region.lo[2]), plane(region.hi[2]));
-    if (adjacent) {
-        const std::int64_t part = region.lo[2] / micro_edge % parts;
-        const std::int64_t first = next.lo[1], rows = next.hi[1] - first + 1;
-        next.lo[1] = first + rows * part / parts;
-        next.hi[1] = first + rows * (part + 1) / parts - 1;
-    }
-    return next;
 }
 
 template <class Code>

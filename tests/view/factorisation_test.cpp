@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <random>
 
 #include "common/volume/levels.h"
@@ -254,9 +253,9 @@ TEST(Factorise, ChoosesTheCoarsestLevelWhoseVoxelsAreNoLargerThanAPixel) {
         if (f.faces.empty() || std::isinf(least)) {
             continue;
         }
-        EXPECT_LE(f.level() == 0 ? 0 : f.slice_pitch(), std::numbers::sqrt2 * least) << i;
+        EXPECT_LE(f.level() == 0 ? 0 : f.slice_pitch(), least) << i;
         EXPECT_TRUE(f.level() == volume::max_level ||
-                    2 * f.slice_pitch() > 0.97 * std::numbers::sqrt2 * least)
+                    2 * f.slice_pitch() > 0.97 * least)
             << i << ": " << least;
         ++chosen.at(static_cast<std::size_t>(f.level()));
     }
