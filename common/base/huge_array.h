@@ -3,7 +3,6 @@
 // addresses are found without a table walk for every row.
 
 #include <cstddef>
-#include <span>
 #include <utility>
 
 namespace shearwater::base {
@@ -33,22 +32,6 @@ class HugeBytes {
   private:
     void* data_ = nullptr;
     std::size_t size_ = 0;
-};
-
-// An array of a trivial type, zeroed, move-only.
-template <class T>
-class HugeArray {
-  public:
-    HugeArray() = default;
-    explicit HugeArray(std::size_t count) : bytes_(count * sizeof(T)) {}
-
-    std::span<T> span() { return {static_cast<T*>(bytes_.data()), count()}; }
-    std::span<const T> span() const { return {static_cast<const T*>(bytes_.data()), count()}; }
-
-  private:
-    std::size_t count() const { return bytes_.size() / sizeof(T); }
-
-    HugeBytes bytes_;
 };
 
 }  // namespace shearwater::base

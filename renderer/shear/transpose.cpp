@@ -21,18 +21,14 @@ HWY_INLINE void turn_block(const std::uint8_t* from, std::ptrdiff_t stride, std:
     }
 }
 #else
-// 16 rows of 16 bytes become 16 columns. Four times rows n and n + 8 are interleaved into 2 n and 2 n + 1.
-HWY_INLINE void turn_block(const std::uint8_t* from, std::ptrdiff_t stride, std::uint8_t* to,
-                           std::ptrdiff_t to_stride) {
-    const hn::FixedTag<std::uint8_t, side> d;
-    using V = hn::Vec<decltype(d)>;
-    V a[side], b[side];
-    for (int i = 0; i < side; ++i) {
-        a[i] = hn::LoadU(d, from + i * stride);
-    }
+// In every 16 bytes of 16 vectors rows become columns. Four times vectors n and n + 8 are interleaved into 2
+// n and 2 n + 1.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void turn_vectors(D d, V* a) {
+    V b[side];
     const auto interleave = [&](const V* in, V* out) HWY_ATTR {
         for (int i = 0; i < side / 2; ++i) {
-            out[2 * i] = hn::InterleaveLower(in[i], in[i + side / 2]);
+            out[2 * i] = hn::InterleaveLower(d, in[i], in[i + side / 2]);
             out[2 * i + 1] = hn::InterleaveUpper(d, in[i], in[i + side / 2]);
         }
     };
@@ -40,6 +36,18 @@ HWY_INLINE void turn_block(const std::uint8_t* from, std::ptrdiff_t stride, std:
     interleave(b, a);
     interleave(a, b);
     interleave(b, a);
+}
+
+// 16 rows of 16 bytes become 16 columns.
+HWY_INLINE void turn_block(const std::uint8_t* from, std::ptrdiff_t stride, std::uint8_t* to,
+                           std::ptrdiff_t to_stride) {
+    const hn::FixedTag<std::uint8_t, side> d;
+    using V = hn::Vec<decltype(d)>;
+    V a[side];
+    for (int i = 0; i < side; ++i) {
+        a[i] = hn::LoadU(d, from + i * stride);
+    }
+    turn_vectors(d, a);
     for (int i = 0; i < side; ++i) {
         hn::StoreU(a[i], d, to + i * to_stride);
     }
@@ -53,7 +61,7 @@ HWY_INLINE void turn_tall_block(const std::uint8_t* from, std::ptrdiff_t stride,
                                 std::ptrdiff_t to_stride) {
     const hn::Full512<std::uint8_t> d;
     using V = hn::Vec<decltype(d)>;
-    V a[side], b[side];
+    V a[side];
     for (int i = 0; i < side; ++i) {
         const auto quarter = [&](int n) HWY_ATTR {
             const std::uint8_t* const row = from + (i + n * side) * stride;
@@ -64,16 +72,7 @@ HWY_INLINE void turn_tall_block(const std::uint8_t* from, std::ptrdiff_t stride,
         rows = _mm512_inserti32x4(rows, quarter(2), 2);
         a[i] = V{_mm512_inserti32x4(rows, quarter(3), 3)};
     }
-    const auto interleave = [&](const V* in, V* out) HWY_ATTR {
-        for (int i = 0; i < side / 2; ++i) {
-            out[2 * i] = hn::InterleaveLower(d, in[i], in[i + side / 2]);
-            out[2 * i + 1] = hn::InterleaveUpper(d, in[i], in[i + side / 2]);
-        }
-    };
-    interleave(a, b);
-    interleave(b, a);
-    interleave(a, b);
-    interleave(b, a);
+    turn_vectors(d, a);
     for (int i = 0; i < side; ++i) {
         hn::StoreU(a[i], d, to + i * to_stride);
     }
