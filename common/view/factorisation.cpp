@@ -64,7 +64,7 @@ Sampling sampling(Quality quality, bool level_of_detail) {
         case Quality::normal:
             break;
     }
-    return {.level_of_detail = level_of_detail};
+    return {.level_of_detail = level_of_detail, .finer_magnified = true};
 }
 
 SliceMap Factorisation::slice_map(const Face& face, double w) const {

@@ -40,10 +40,12 @@ struct Sampling {
     double resolution = 1;         // intermediate pixels per output pixel along a side
     int slice_exponent = 0;        // slices lie 2^slice_exponent voxels apart: 0, or -1 for half a voxel
     bool level_of_detail = false;  // or more, where voxels are smaller than intermediate pixels
+    bool finer_magnified = false;  // or half a voxel, where the nearest voxels span more than 1.25 of them
 
     bool operator==(const Sampling&) const = default;
 };
-// draft: half the resolution; high: one and a half of it, and two slices a voxel.
+// draft: half the resolution; normal: two slices a voxel only close up; high: one and a half times the
+// resolution, and two slices a voxel.
 Sampling sampling(Quality quality, bool level_of_detail = false);
 
 struct Face {

@@ -279,17 +279,30 @@ double least_voxels_per_pixel(const Factorisation& factorisation, const Plan& pl
     return fewest * nearest;
 }
 
-int level_of_detail(const Factorisation& factorisation, const std::vector<Plan>& plans) {
+// Voxels from one intermediate pixel to the next where they are fewest, over all faces.
+double least_voxels_per_pixel(const Factorisation& factorisation, const std::vector<Plan>& plans) {
     double least = std::numeric_limits<double>::infinity();
     for (const Plan& plan : plans) {
         least = std::min(least, least_voxels_per_pixel(factorisation, plan));
     }
+    return least;
+}
+
+// Pixels that a voxel spans where what lies between two slices begins to show.
+constexpr double magnified = 1.25;
+
+int slice_exponent(const Factorisation& factorisation, const std::vector<Plan>& plans,
+                   const Sampling& sampling) {
+    const double least = least_voxels_per_pixel(factorisation, plans);
     int level = 0;
-    while (level < volume::coarsest_level(factorisation.lattice.n) &&
+    while (sampling.level_of_detail && level < volume::coarsest_level(factorisation.lattice.n) &&
            std::ldexp(1.0, level + 1) <= least) {
         ++level;
     }
-    return level;
+    if (level > 0) {
+        return level;
+    }
+    return sampling.finer_magnified && least * magnified < 1 ? -1 : sampling.slice_exponent;
 }
 
 }  // namespace
@@ -297,8 +310,7 @@ int level_of_detail(const Factorisation& factorisation, const std::vector<Plan>&
 Factorisation factorise(const Camera& camera, const ImageSize& size, const Lattice& lattice,
                         const Sampling& sampling) {
     const Rays rays = in_voxel_space(rays_of(camera, size), lattice);
-    Factorisation factorisation{
-        .projection = camera.projection, .lattice = lattice, .slice_exponent = sampling.slice_exponent};
+    Factorisation factorisation{.projection = camera.projection, .lattice = lattice};
     const Polygon picture = whole_picture(size);
     std::vector<Plan> plans;
     if (camera.projection == Projection::perspective) {
@@ -310,10 +322,7 @@ Factorisation factorise(const Camera& camera, const ImageSize& size, const Latti
         plan_parallel(plans, factorisation, rays, picture, sampling.resolution);
     }
     lay_all(plans, factorisation);
-    if (sampling.level_of_detail) {
-        const int level = level_of_detail(factorisation, plans);
-        factorisation.slice_exponent = level > 0 ? level : sampling.slice_exponent;
-    }
+    factorisation.slice_exponent = slice_exponent(factorisation, plans, sampling);
     return factorisation;
 }
 

@@ -96,7 +96,7 @@ TEST(Factorise, GivesTheResolutionAskedFor) {
     const Factorisation fine = factorise(camera, size, Lattice{{50, 50, 50}}, {1.5});
     EXPECT_NEAR(fine.faces[0].pitch.y * 1.5, one.faces[0].pitch.y, 1e-9);
     EXPECT_EQ(sampling(Quality::draft), (Sampling{0.5, 0}));
-    EXPECT_EQ(sampling(Quality::normal), (Sampling{1, 0}));
+    EXPECT_EQ(sampling(Quality::normal), (Sampling{1, 0, false, true}));
     EXPECT_EQ(sampling(Quality::high), (Sampling{1.5, -1}));
 }
 
@@ -275,6 +275,21 @@ TEST(Factorise, KeepsToTheLevelsThatTheCubeHas) {
     EXPECT_EQ(factorise(near, {64, 64}, small, {.level_of_detail = true}).slice_exponent, 0);
     EXPECT_TRUE(sampling(Quality::draft, true).level_of_detail);
     EXPECT_FALSE(sampling(Quality::high, false).level_of_detail);
+}
+
+TEST(Factorise, TakesTwoSlicesAVoxelWhereTheNearestVoxelsSpanMoreThanAPixel) {
+    const Lattice cube{{64, 64, 64}};
+    const auto exponent = [&](double height, Quality quality) {
+        const Camera camera = camera_on({0, 0}, cube, Projection::parallel, 30, height);
+        return factorise(camera, {100, 100}, cube, sampling(quality, true)).slice_exponent;
+    };
+    // 0.81 and 0.79 voxels a pixel of the picture.
+    EXPECT_EQ(exponent(81, Quality::normal), 0);
+    EXPECT_EQ(exponent(79, Quality::normal), -1);
+    EXPECT_EQ(exponent(79, Quality::draft), 0);
+    EXPECT_EQ(exponent(81, Quality::high), -1);
+    const Camera within = camera_on({0, 0, 3}, cube);
+    EXPECT_EQ(factorise(within, {100, 100}, cube, sampling(Quality::normal)).slice_exponent, -1);
 }
 
 TEST(ValidateFactorisation, RefusesWhatAPeerMayMakeUp) {
