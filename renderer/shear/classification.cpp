@@ -7,18 +7,31 @@ namespace shearwater::shear {
 
 namespace {
 
-std::vector<Content> contents_of(std::span<const CodeRange> ranges, const OpacityTable& table,
-                                 base::Workers& workers) {
-    constexpr std::int64_t at_once = 1 << 15;
+// The octants that may have opacity.
+std::uint8_t opaque_of(const Octants& octants, int bits, const OpacityTable& table) {
+    const int low = bits - 8;  // bits of codes that the ranges leave out
+    unsigned opaque = 0;
+    for (std::size_t n = 0; n < octants.size(); ++n) {
+        const auto min = static_cast<std::uint16_t>(octants[n].min << low);
+        const auto max = static_cast<std::uint16_t>((octants[n].max + 1) * (1 << low) - 1);
+        opaque |= octants[n].min <= octants[n].max && table.any_opacity(min, max) ? 1U << n : 0U;
+    }
+    return static_cast<std::uint8_t>(opaque);
+}
+
+std::vector<Content> contents_of(const CodeVolume& codes, const OpacityTable& table, base::Workers& workers) {
+    const std::span<const CodeRange> ranges = codes.micro_bricks().ranges();
+    constexpr std::int64_t at_once = 1 << 13;
     const auto count = static_cast<std::int64_t>(ranges.size());
     std::vector<Content> contents(ranges.size());
     workers.for_each((count + at_once - 1) / at_once, [&](std::int64_t part) {
         const auto end = static_cast<std::size_t>(std::min(count, (part + 1) * at_once));
         for (auto n = static_cast<std::size_t>(part * at_once); n < end; ++n) {
             const CodeRange& range = ranges[n];
-            contents[n] = !table.any_opacity(range.min, range.max) ? Content::transparent
-                          : range.blanks                           ? Content::with_blanks
-                                                                   : Content::full;
+            contents[n].blanks = range.blanks;
+            if (table.any_opacity(range.min, range.max)) {
+                contents[n].opaque_octants = opaque_of(codes.octants()[n], codes.bits(), table);
+            }
         }
     });
     return contents;
@@ -32,8 +45,7 @@ Classification classify(const BrickVolume& volume, const view::TransferFunction&
                                   .opaque = std::vector<std::uint8_t>(volume.bricks().ranges().size())};
     const OpacityTable& table = classification.table;
     for (int level = 0; level < volume.levels(); ++level) {
-        classification.micro_bricks.push_back(
-            contents_of(volume.level(level).micro_bricks().ranges(), table, workers));
+        classification.micro_bricks.push_back(contents_of(volume.level(level), table, workers));
     }
     std::transform(volume.bricks().ranges().begin(), volume.bricks().ranges().end(),
                    classification.opaque.begin(), [&](const CodeRange& range) {

@@ -12,11 +12,10 @@
 
 namespace shearwater::shear {
 
-// What the kernel has to do with a micro-brick.
-enum class Content : std::uint8_t {
-    transparent,  // nothing: no sample in it has opacity
-    full,         // some may, and none of its voxels is blank
-    with_blanks,  // some may
+// Of a micro-brick: what of it may have opacity, and whether one of its voxels is blank.
+struct Content {
+    std::uint8_t opaque_octants = 0;  // a bit each, counted as Octants are
+    bool blanks = false;
 };
 
 struct Classification {

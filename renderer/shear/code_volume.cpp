@@ -56,7 +56,7 @@ CodeVolume::CodeVolume(const Box& box, int bits)
     : box_(box), bits_(bits), strides_(strides_of(box, bits)), codes_(bytes_of(box, strides_, bits)) {}
 
 std::size_t CodeVolume::bytes() const {
-    return codes_.size() + micro_bricks_.ranges().size_bytes();
+    return codes_.size() + micro_bricks_.ranges().size_bytes() + std::span(octants_).size_bytes();
 }
 
 std::size_t CodeVolume::offset(const Index3& p) const {
@@ -93,9 +93,10 @@ void CodeVolume::crop(const Box& box) {
 
 bool CodeVolume::survey(base::Workers& workers, const std::stop_token& stop) {
     micro_bricks_ = CodeGrid(box_, micro_edge);
+    octants_.assign(micro_bricks_.ranges().size(), {});
     const auto over = [&]<class Code>(std::span<const Code> codes) {
         return shear::survey(CodesOfBox<Code>{codes.data(), box_, stride(1), stride(2)}, micro_bricks_,
-                             workers, stop);
+                             octants_, workers, stop);
     };
     return bits_ == 8 ? over(std::as_const(*this).codes<std::uint8_t>())
                       : over(std::as_const(*this).codes<std::uint16_t>());

@@ -4,8 +4,10 @@
 // Codes lie in rows along axis 0, planes of rows, and so on, as in the cube, so that a tile's samples on a
 // slice lie in a few long rows whatever the axis. What a transfer function may pass over is told by
 // micro-bricks of 8^3 cells on a grid global to the level, each with the codes that occur on its planes,
-// those it shares with its neighbours included. On level 0 the nodes are the cube's voxels.
+// those it shares with its neighbours included; and by its octants, more coarsely. On level 0 the nodes are
+// the cube's voxels.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <stop_token>
@@ -27,6 +29,16 @@ struct CodeRange {
     bool empty() const { return min > max; }
     void add(const CodeRange& other);
 };
+
+// The leading bytes of the codes that occur in an octant of a micro-brick and are not blank: min > max where
+// there are none, or where it is outside the box.
+struct OctantRange {
+    std::uint8_t min = 255, max = 0;
+
+    bool operator==(const OctantRange&) const = default;
+};
+// At x + 2 y + 4 z, x, y and z counting along the axes.
+using Octants = std::array<OctantRange, 8>;
 
 // A box's cells in cubes on the cube's grid, and what is known of each, axis 0 fastest.
 class CodeGrid {
@@ -53,6 +65,7 @@ class CodeGrid {
 class CodeVolume {
   public:
     static constexpr std::int64_t micro_edge = 8;
+    static constexpr std::int64_t octant_edge = micro_edge / 2;
 
     CodeVolume() = default;
     // Blank throughout, with codes of 8 or 16 bits; std::bad_alloc where there is no room.
@@ -81,6 +94,8 @@ class CodeVolume {
     // Finds out what the micro-bricks hold; false if stopped before.
     bool survey(base::Workers& workers, const std::stop_token& stop);
     const CodeGrid& micro_bricks() const { return micro_bricks_; }
+    // Of each of them.
+    std::span<const Octants> octants() const { return octants_; }
 
   private:
     volume::Box box_;
@@ -88,6 +103,7 @@ class CodeVolume {
     volume::Index3 strides_{};
     base::HugeBytes codes_;
     CodeGrid micro_bricks_;
+    std::vector<Octants> octants_;
 };
 
 }  // namespace shearwater::shear

@@ -56,10 +56,16 @@ FacePlan::FacePlan(const BrickVolume& volume, const Factorisation& factorisation
         window_ = {};
         return;
     }
-    owned_.resize(static_cast<std::size_t>(slice_count()));
-    inside_.resize(owned_.size() + 2);
+    plans_.resize(static_cast<std::size_t>(slice_count()));
+    inside_.resize(plans_.size() + 2);
     for (std::int64_t k = slices_.first - 1; k <= slices_.last + 1; ++k) {
         lay_slice(volume.box(), k);
+    }
+    for (std::int64_t k = slices_.first; k <= slices_.last; ++k) {
+        SlicePlan& plan = plans_[slot(k)];
+        plan.place = std::ldexp(factorisation_.slice_place(k), -level());
+        plan.map = node_map(plan.place);
+        plan.whole = intersection(inside(k - 1), inside(k + 1));
     }
 }
 
@@ -84,7 +90,7 @@ void FacePlan::lay_slice(const Box& box, std::int64_t k) {
     };
     inside_[slot(k) + 1] = pixels_in({{0, 0, 0}, last_voxel_});
     if (slices_.first <= k && k <= slices_.last) {
-        owned_[slot(k)] = pixels_in(box);
+        plans_[slot(k)].owned = pixels_in(box);
     }
 }
 

@@ -7,7 +7,6 @@
 // slow axis. All rectangles and pixels here are turned the same way: x and i along the fast axis, y and j
 // along the slow one.
 
-#include <cmath>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -17,6 +16,14 @@
 #include "renderer/shear/brick_volume.h"
 
 namespace shearwater::shear {
+
+// A slice that the sub-volume owns, in the nodes of the level that is drawn.
+struct SlicePlan {
+    double place;        // along the face's axis
+    view::SliceMap map;  // where nodes lie under pixels, fast as u and slow as v
+    view::Rect owned;    // the pixels whose samples the sub-volume owns
+    view::Rect whole;    // those whose samples stand for a whole step
+};
 
 class FacePlan {
   public:
@@ -37,15 +44,11 @@ class FacePlan {
     // The slices that the sub-volume owns and that are in front of the eye, front to back: the n-th's number.
     std::int64_t slice_count() const { return slices_.last - slices_.first + 1; }
     std::int64_t slice(std::int64_t n) const { return face_.sign > 0 ? slices_.first + n : slices_.last - n; }
-    // The pixels whose samples on slice k the sub-volume owns.
-    const view::Rect& owned(std::int64_t k) const { return owned_[slot(k)]; }
+    const SlicePlan& slice_plan(std::int64_t k) const { return plans_[slot(k)]; }
 
-    // Where voxels of the plane at w lie under pixels, fast as u and slow as v.
-    view::SliceMap slice_map(double w) const;
-    // The level of detail that is drawn, and the same in its nodes: where slice k lies, and where nodes of a
-    // plane that lies at `place` of them lie under pixels.
+    // The level of detail that is drawn, and where the nodes of its plane at `place` lie under pixels, fast
+    // as u and slow as v.
     int level() const { return factorisation_.level(); }
-    double node_place(std::int64_t k) const { return std::ldexp(factorisation_.slice_place(k), -level()); }
     view::SliceMap node_map(double place) const;
     // World lengths between two slices of the rays of pixels of row j from i on.
     void steps(int i, int j, std::span<float> out) const;
@@ -59,6 +62,7 @@ class FacePlan {
   private:
     std::pair<double, double> line_of(int axis) const;
     double place_of(int axis, int pixel) const;
+    view::SliceMap slice_map(double w) const;
     void lay_slice(const volume::Box& box, std::int64_t k);
     std::size_t slot(std::int64_t k) const { return static_cast<std::size_t>(k - slices_.first); }
     bool perspective() const { return factorisation_.projection == view::Projection::perspective; }
@@ -68,7 +72,7 @@ class FacePlan {
     volume::Index3 last_voxel_;  // of the cube
     view::Rect window_;
     view::SliceRange slices_;  // that the sub-volume owns, in front of the eye
-    std::vector<view::Rect> owned_;
+    std::vector<SlicePlan> plans_;
     std::vector<view::Rect> inside_;  // of the slices and of one more at either end
 };
 

@@ -1,19 +1,23 @@
 #include "renderer/shear/micro_layer.h"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 
 namespace shearwater::shear {
 
 namespace {
 
-// How far a run lies along the rays' way: in perspective all go away from the eye, so runs on one side of it
-// are in order of distance, and those on different sides are never on one ray.
+// So many octants and fewer are not worth going round: the kernel takes more pixels at a time than lie in
+// them.
+constexpr std::int64_t bridged = 4;
+
+// How far a run of octants lies along the rays' way: in perspective all go away from the eye, so runs on one
+// side of it are in order of distance, and those on different sides are never on one ray.
 double distance(const FacePlan& plan, const CodeGrid& grid, int axis, const MicroRun& run) {
     const view::Factorisation& factorisation = plan.factorisation();
-    const std::int64_t edge = grid.edge() << plan.level();
-    const auto lo = static_cast<double>((grid.first(axis) + run.first) * edge);
-    const auto hi = static_cast<double>((grid.first(axis) + run.end) * edge);
+    const std::int64_t edge = CodeVolume::octant_edge << plan.level();
+    const auto lo = static_cast<double>((2 * grid.first(axis) + run.first) * edge);
+    const auto hi = static_cast<double>((2 * grid.first(axis) + run.end) * edge);
     if (factorisation.projection == view::Projection::parallel) {
         return factorisation.direction[axis] < 0 ? -lo : lo;
     }
@@ -33,30 +37,48 @@ MicroLayer::MicroLayer(const CodeVolume& codes, const Classification& classifica
     slow_stride_ = strides[static_cast<std::size_t>(plan.slow_axis())];
 }
 
-bool MicroLayer::uniform(const MicroRun& fast, const MicroRun& slow) const {
-    const Content content = at(fast.first, slow.first);
+Visit MicroLayer::visit(const MicroRun& fast, const MicroRun& slow) const {
+    std::int64_t opaque = 0, blank = 0;
     for (std::int64_t s = slow.first; s < slow.end; ++s) {
         for (std::int64_t f = fast.first; f < fast.end; ++f) {
-            if (at(f, s) != content) {
-                return false;
-            }
+            const Content& content = at(f, s);
+            opaque += std::popcount(content.opaque_octants);
+            blank += content.blanks ? 1 : 0;
         }
     }
-    return true;
+    const std::int64_t count = (fast.end - fast.first) * (slow.end - slow.first);
+    if (opaque == 0) {
+        return Visit::none;
+    }
+    const bool most = 2 * opaque >= 8 * count;
+    return most && blank == 0 ? Visit::full : most && blank == count ? Visit::with_blanks : Visit::parts;
 }
 
-void MicroLayer::runs(const MicroRun& fast, std::int64_t slow, std::vector<Run>& out) const {
+void MicroLayer::runs(const MicroRun& fast, std::int64_t slow, int half, std::vector<Run>& out) const {
     out.clear();
-    for (std::int64_t f = fast.first; f < fast.end;) {
-        const Content content = at(f, slow);
-        std::int64_t end = f + 1;
-        while (end < fast.end && at(end, slow) == content) {
-            ++end;
+    // Of a micro-brick's octants the two that the row passes, one after the other.
+    const auto near = static_cast<int>(slow % 2 << plan_.slow_axis() | half << plan_.face().axis);
+    const int far = near | 1 << plan_.fast_axis();
+    const unsigned both = 1U << near | 1U << far;
+    bool open = false;  // whether the last run may go on: no octant since was blank and not to be visited so
+    for (std::int64_t f = fast.first / 2; 2 * f < fast.end; ++f) {
+        const Content& content = at(f, slow / 2);
+        const Visit visit = content.blanks ? Visit::with_blanks : Visit::full;
+        if ((content.opaque_octants & both) == 0) {
+            open = open && (!content.blanks || out.back().visit == visit);
+            continue;
         }
-        if (content != Content::transparent) {
-            out.push_back({{f, end}, content});
+        const MicroRun seen{std::max(fast.first, 2 * f + ((content.opaque_octants >> near & 1) != 0 ? 0 : 1)),
+                            std::min(fast.end, 2 * f + ((content.opaque_octants >> far & 1) != 0 ? 2 : 1))};
+        if (seen.first >= seen.end) {
+            continue;
         }
-        f = end;
+        if (open && out.back().visit == visit && seen.first - out.back().along.end <= bridged) {
+            out.back().along.end = seen.end;
+        } else {
+            out.push_back({seen, visit});
+        }
+        open = true;
     }
     if (out.size() > 1) {
         const int axis = plan_.fast_axis();
@@ -66,16 +88,15 @@ void MicroLayer::runs(const MicroRun& fast, std::int64_t slow, std::vector<Run>&
     }
 }
 
-std::vector<std::int64_t> front_to_back(const FacePlan& plan, const CodeGrid& grid, int axis,
-                                        const MicroRun& range) {
-    std::vector<std::int64_t> order;
+void front_to_back(const FacePlan& plan, const CodeGrid& grid, int axis, const MicroRun& range,
+                   std::vector<std::int64_t>& order) {
+    order.clear();
     for (std::int64_t n = range.first; n < range.end; ++n) {
         order.push_back(n);
     }
     std::stable_sort(order.begin(), order.end(), [&](std::int64_t a, std::int64_t b) {
         return distance(plan, grid, axis, {a, a + 1}) < distance(plan, grid, axis, {b, b + 1});
     });
-    return order;
 }
 
 }  // namespace shearwater::shear

@@ -1,5 +1,5 @@
 #pragma once
-// A layer of micro-bricks across a face's principal axis, and in what order to visit it.
+// A layer of micro-bricks across a face's principal axis: which of its octants to visit, in what order.
 
 #include <cstdint>
 #include <vector>
@@ -9,9 +9,19 @@
 
 namespace shearwater::shear {
 
-// Micro-bricks [first, end) along an axis.
+// Micro-bricks or octants [first, end) along an axis, counted from where the sub-volume's first micro-brick
+// begins.
 struct MicroRun {
     std::int64_t first, end;
+    bool operator==(const MicroRun&) const = default;
+};
+
+// What to do with the samples in a part of a layer.
+enum class Visit {
+    none,         // nothing: none has opacity
+    full,         // all of them, or most, may have some, and no voxel is blank
+    with_blanks,  // so, but voxels may be blank
+    parts,        // it differs
 };
 
 class MicroLayer {
@@ -20,27 +30,31 @@ class MicroLayer {
     MicroLayer(const CodeVolume& codes, const Classification& classification, const FacePlan& plan,
                std::int64_t layer);
 
-    Content at(std::int64_t fast, std::int64_t slow) const {
-        return first_[fast * fast_stride_ + slow * slow_stride_];
-    }
-    // Whether all micro-bricks of a rectangle have one content, namely that of its first.
-    bool uniform(const MicroRun& fast, const MicroRun& slow) const;
-    // The runs of one content, not transparent, of a row of it, front to back.
+    Visit visit(const MicroRun& fast, const MicroRun& slow) const;
+
+    // Octants of a row to visit alike. What is between two such and a little more work than going round it
+    // is visited with them.
     struct Run {
         MicroRun along;
-        Content content;
+        Visit visit;
+        bool operator==(const Run&) const = default;
     };
-    void runs(const MicroRun& fast, std::int64_t slow, std::vector<Run>& out) const;
+    // Those of a row of octants, front to back; `half` is 0 for those nearer to the cube's first plane.
+    void runs(const MicroRun& fast, std::int64_t slow, int half, std::vector<Run>& out) const;
 
   private:
+    const Content& at(std::int64_t fast, std::int64_t slow) const {
+        return first_[fast * fast_stride_ + slow * slow_stride_];
+    }
+
     const Content* first_;
     std::ptrdiff_t fast_stride_, slow_stride_;
     const FacePlan& plan_;
     const CodeGrid& grid_;
 };
 
-// Micro-bricks [first, end) along an in-plane axis in an order that is front to back along every ray.
-std::vector<std::int64_t> front_to_back(const FacePlan& plan, const CodeGrid& grid, int axis,
-                                        const MicroRun& range);
+// Octants [first, end) along an in-plane axis in an order that is front to back along every ray.
+void front_to_back(const FacePlan& plan, const CodeGrid& grid, int axis, const MicroRun& range,
+                   std::vector<std::int64_t>& order);
 
 }  // namespace shearwater::shear

@@ -17,14 +17,15 @@ struct CodesOfBox {
     std::ptrdiff_t row_stride, plane_stride;
 };
 
-// Fills in the ranges of a grid of edge micro_edge over the box; false if stopped before.
+// Fills in the ranges of a grid of edge micro_edge over the box, and of its members' octants, none of which
+// is known before; false if stopped before.
 template <class Code>
-bool survey(const CodesOfBox<Code>& codes, CodeGrid& micro_bricks, base::Workers& workers,
-            const std::stop_token& stop);
+bool survey(const CodesOfBox<Code>& codes, CodeGrid& micro_bricks, std::span<Octants> octants,
+            base::Workers& workers, const std::stop_token& stop);
 
-extern template bool survey(const CodesOfBox<std::uint8_t>&, CodeGrid&, base::Workers&,
+extern template bool survey(const CodesOfBox<std::uint8_t>&, CodeGrid&, std::span<Octants>, base::Workers&,
                             const std::stop_token&);
-extern template bool survey(const CodesOfBox<std::uint16_t>&, CodeGrid&, base::Workers&,
+extern template bool survey(const CodesOfBox<std::uint16_t>&, CodeGrid&, std::span<Octants>, base::Workers&,
                             const std::stop_token&);
 
 // What a coarser grid over the same box makes of a finer one's ranges.

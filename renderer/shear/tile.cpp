@@ -9,11 +9,11 @@ namespace shearwater::shear {
 
 using view::PixelRange;
 using view::Rect;
-using view::SliceMap;
 
 namespace {
 
 constexpr std::int64_t micro_edge = CodeVolume::micro_edge;
+constexpr std::int64_t octant_edge = CodeVolume::octant_edge;
 
 // Extinctions of nodes that differ by less than these halvings of light a step are not told apart: as much as
 // one opacity in a hundred, at most half of which a sample is wrong by, this way or that.
@@ -112,28 +112,32 @@ bool Tile<Code>::opaque() const {
     return true;
 }
 
-// The layer, counted from the sub-volume's first, of the cells behind the slice.
+// The cell behind the slice.
+template <class Code>
+std::int64_t Tile<Code>::cell_of(std::int64_t k) const {
+    return std::min(static_cast<std::int64_t>(plan_.slice_plan(k).place),
+                    codes_.box().hi[static_cast<std::size_t>(plan_.face().axis)] - 1);
+}
+
+// Its layer, counted from the sub-volume's first.
 template <class Code>
 std::int64_t Tile<Code>::micro_layer(std::int64_t k) const {
-    const int axis = plan_.face().axis;
-    const auto plane = static_cast<std::int64_t>(plan_.node_place(k));
-    const std::int64_t cell = std::min(plane, codes_.box().hi[static_cast<std::size_t>(axis)] - 1);
-    return cell / micro_edge - codes_.micro_bricks().first(axis);
+    return cell_of(k) / micro_edge - codes_.micro_bricks().first(plan_.face().axis);
 }
 
 // With the pixels of the tile that the sub-volume owns on it, counted from the tile's first; its voxels are
 // found later.
 template <class Code>
 Slice<Code> Tile<Code>::slice_of(std::int64_t k) const {
-    const SliceMap map = plan_.node_map(plan_.node_place(k));
-    const Rect pixels = intersection(rect_, plan_.owned(k));
+    const SlicePlan& plan = plan_.slice_plan(k);
+    const Rect pixels = intersection(rect_, plan.owned);
     return {
         .voxels = nullptr,
         .next = nullptr,
-        .fast_offset = map.u_offset,
-        .fast_scale = map.u_scale,
-        .slow_offset = map.v_offset,
-        .slow_scale = map.v_scale,
+        .fast_offset = plan.map.u_offset,
+        .fast_scale = plan.map.u_scale,
+        .slow_offset = plan.map.v_offset,
+        .slow_scale = plan.map.v_scale,
         .pixels = {pixels.x0 - rect_.x0, pixels.y0 - rect_.y0, pixels.x1 - rect_.x0, pixels.y1 - rect_.y0},
         .lengths = nullptr};
 }
@@ -141,63 +145,98 @@ Slice<Code> Tile<Code>::slice_of(std::int64_t k) const {
 // Slices that lie in one layer of micro-bricks, each with some pixels.
 template <class Code>
 void Tile<Code>::render_slices(Slices slices, std::span<const std::int64_t> numbers) {
-    const MicroLayer layer(codes_, classification_, plan_, micro_layer(numbers.front()));
+    const std::int64_t number = micro_layer(numbers.front());
+    const MicroLayer layer(codes_, classification_, plan_, number);
     const VoxelRegion region = region_of(slices, numbers);
-    const CodeGrid& grid = codes_.micro_bricks();
-    const std::array<int, 2> axes{plan_.fast_axis(), plan_.slow_axis()};
-    const auto micro_run = [&](std::size_t n) {
-        const std::int64_t first = grid.first(axes[n]);
-        return MicroRun{region.lo[n] / micro_edge - first, (region.hi[n] - 1) / micro_edge - first + 1};
+    const auto run = [&](std::size_t n, int axis, std::int64_t edge) {
+        const std::int64_t first = codes_.micro_bricks().first(axis) * micro_edge;
+        return MicroRun{(region.lo[n] - first) / edge, (region.hi[n] - 1 - first) / edge + 1};
     };
-    const MicroRun fast = micro_run(0), slow = micro_run(1);
-    if (layer.uniform(fast, slow)) {
-        render_part(slices, numbers, layer.at(fast.first, slow.first), true);
+    const int fast_axis = plan_.fast_axis(), slow_axis = plan_.slow_axis();
+    const Visit visit = layer.visit(run(0, fast_axis, micro_edge), run(1, slow_axis, micro_edge));
+    if (visit == Visit::none) {
         return;
     }
-    std::vector<MicroLayer::Run> runs;
-    std::array<Slice<Code>, Slab<Code>::max_slices> part;
-    std::array<std::int64_t, Slab<Code>::max_slices> part_numbers;
-    for (const std::int64_t row : front_to_back(plan_, grid, axes[1], slow)) {
-        layer.runs(fast, row, runs);
-        for (const MicroLayer::Run& run : runs) {
-            std::size_t count = 0;
-            for (std::size_t n = 0; n < slices.size(); ++n) {
-                const Slice<Code>& slice = slices[n];
-                const auto within = [&](std::size_t axis, const PixelRange& pixels, double offset,
-                                        double scale, const MicroRun& micro, const MicroRun& all) {
-                    const std::int64_t first = grid.first(axes[axis]);
-                    return pixels_within(pixels, offset, scale,
-                                         static_cast<double>((first + micro.first) * micro_edge),
-                                         static_cast<double>((first + micro.end) * micro_edge),
-                                         micro.first == all.first, micro.end == all.end);
-                };
-                const PixelRange columns = within(0, {slice.pixels.x0, slice.pixels.x1},
-                                                  slice.fast_offset + slice.fast_scale * rect_.x0,
-                                                  slice.fast_scale, run.along, fast);
-                const PixelRange rows = within(1, {slice.pixels.y0, slice.pixels.y1},
-                                               slice.slow_offset + slice.slow_scale * rect_.y0,
-                                               slice.slow_scale, {row, row + 1}, slow);
-                if (!columns.empty() && !rows.empty()) {
-                    part[count] = slice;
-                    part[count].pixels = {columns.first, rows.first, columns.last, rows.last};
-                    part_numbers[count++] = numbers[n];
-                }
-            }
-            if (count > 0) {
-                render_part(Slices(part).first(count), std::span(part_numbers).first(count), run.content,
-                            false);
-            }
+    if (visit != Visit::parts) {
+        render_part(slices, numbers, visit, true);
+        return;
+    }
+    // Half a layer at a time, front to back.
+    const std::int64_t middle =
+        (codes_.micro_bricks().first(plan_.face().axis) + number) * micro_edge + octant_edge;
+    const MicroRun fast = run(0, fast_axis, octant_edge), slow = run(1, slow_axis, octant_edge);
+    for (std::size_t first = 0, end = 0; first < slices.size(); first = end) {
+        const bool farther = cell_of(numbers[first]) >= middle;
+        while (end < slices.size() && (cell_of(numbers[end]) >= middle) == farther) {
+            ++end;
         }
+        render_octants(slices.subspan(first, end - first), numbers.subspan(first, end - first), layer,
+                       farther ? 1 : 0, fast, slow);
     }
 }
 
-// Parts of slices in micro-bricks of one content. Where it is the whole of them, so will the next slices be.
+// Row by row, those together that are alike.
 template <class Code>
-void Tile<Code>::render_part(Slices slices, std::span<const std::int64_t> numbers, Content content,
-                             bool whole) {
-    if (content == Content::transparent) {
-        return;
+void Tile<Code>::render_octants(Slices slices, std::span<const std::int64_t> numbers, const MicroLayer& layer,
+                                int half, const MicroRun& fast, const MicroRun& slow) {
+    const MicroRun all_rows = slow;
+    front_to_back(plan_, codes_.micro_bricks(), plan_.slow_axis(), slow, octant_rows_);
+    runs_.clear();
+    MicroRun rows{0, 0};
+    const auto flush = [&] {
+        for (const MicroLayer::Run& run : runs_) {
+            render_run(slices, numbers, run, rows, fast, all_rows);
+        }
+    };
+    for (const std::int64_t row : octant_rows_) {
+        layer.runs(fast, row, half, next_runs_);
+        if (next_runs_ == runs_ && (row == rows.end || row == rows.first - 1)) {
+            rows = {std::min(rows.first, row), std::max(rows.end, row + 1)};
+            continue;
+        }
+        flush();
+        rows = {row, row + 1};
+        std::swap(runs_, next_runs_);
     }
+    flush();
+}
+
+// The part of some slices that lies in a run of octants of some rows.
+template <class Code>
+void Tile<Code>::render_run(Slices slices, std::span<const std::int64_t> numbers, const MicroLayer::Run& run,
+                            const MicroRun& rows, const MicroRun& all_fast, const MicroRun& all_slow) {
+    const auto within = [&](int axis, const PixelRange& pixels, double offset, double scale,
+                            const MicroRun& octants, const MicroRun& all) {
+        const std::int64_t first = codes_.micro_bricks().first(axis) * micro_edge;
+        return pixels_within(pixels, offset, scale, static_cast<double>(first + octants.first * octant_edge),
+                             static_cast<double>(first + octants.end * octant_edge),
+                             octants.first == all.first, octants.end == all.end);
+    };
+    std::array<Slice<Code>, Slab<Code>::max_slices> part;
+    std::array<std::int64_t, Slab<Code>::max_slices> part_numbers;
+    std::size_t count = 0;
+    for (std::size_t n = 0; n < slices.size(); ++n) {
+        const Slice<Code>& slice = slices[n];
+        const PixelRange columns =
+            within(plan_.fast_axis(), {slice.pixels.x0, slice.pixels.x1},
+                   slice.fast_offset + slice.fast_scale * rect_.x0, slice.fast_scale, run.along, all_fast);
+        const PixelRange lines =
+            within(plan_.slow_axis(), {slice.pixels.y0, slice.pixels.y1},
+                   slice.slow_offset + slice.slow_scale * rect_.y0, slice.slow_scale, rows, all_slow);
+        if (!columns.empty() && !lines.empty()) {
+            part[count] = slice;
+            part[count].pixels = {columns.first, lines.first, columns.last, lines.last};
+            part_numbers[count++] = numbers[n];
+        }
+    }
+    if (count > 0) {
+        render_part(Slices(part).first(count), std::span(part_numbers).first(count), run.visit, false);
+    }
+}
+
+// Parts of slices to be visited alike. Where it is the whole of them, so will the next slices be.
+template <class Code>
+void Tile<Code>::render_part(Slices slices, std::span<const std::int64_t> numbers, Visit visit, bool whole) {
     const VoxelRegion region = region_of(slices, numbers);
     const auto place = voxels_.find(region, whole ? with_block(region) : region);
     Slab<Code> slab{.fast_first = region.lo[0],
@@ -208,12 +247,12 @@ void Tile<Code>::render_part(Slices slices, std::span<const std::int64_t> number
                     .ahead = whole ? voxels_.ahead(behind(region)) : Ahead{},
                     .fast_pixel = rect_.x0,
                     .slow_pixel = rect_.y0,
-                    .blanks = content == Content::with_blanks,
+                    .blanks = visit == Visit::with_blanks,
                     .between_nodes = between_nodes_,
                     .count = static_cast<int>(slices.size()),
                     .slices = {}};
     for (std::size_t n = 0; n < slices.size(); ++n) {
-        const double w = plan_.node_place(numbers[n]);
+        const double w = plan_.slice_plan(numbers[n]).place;
         const auto plane = static_cast<std::int64_t>(w);
         Slice<Code>& slice = slab.slices[n];
         slice = slices[n];
@@ -268,7 +307,7 @@ Rays Tile<Code>::rays() {
 // Most samples stand for a whole step. Those that do not are at the rim of what the cube covers on a slice.
 template <class Code>
 const float* Tile<Code>::lengths_on(std::int64_t k, const Rect& pixels, Plane& spare) {
-    const Rect inner = intersection(plan_.inside(k - 1), plan_.inside(k + 1));
+    const Rect& inner = plan_.slice_plan(k).whole;
     const Rect plain = intersection(
         pixels, {inner.x0 - rect_.x0, inner.y0 - rect_.y0, inner.x1 - rect_.x0, inner.y1 - rect_.y0});
     if (plain == pixels) {

@@ -49,10 +49,15 @@ class Tile {
     using Slices = std::span<const Slice<Code>>;
 
     void prepare_rays();
+    std::int64_t cell_of(std::int64_t k) const;
     std::int64_t micro_layer(std::int64_t k) const;
     Slice<Code> slice_of(std::int64_t k) const;
     void render_slices(Slices slices, std::span<const std::int64_t> numbers);
-    void render_part(Slices slices, std::span<const std::int64_t> numbers, Content content, bool whole);
+    void render_octants(Slices slices, std::span<const std::int64_t> numbers, const MicroLayer& layer,
+                        int half, const MicroRun& fast, const MicroRun& slow);
+    void render_run(Slices slices, std::span<const std::int64_t> numbers, const MicroLayer::Run& run,
+                    const MicroRun& rows, const MicroRun& all_fast, const MicroRun& all_slow);
+    void render_part(Slices slices, std::span<const std::int64_t> numbers, Visit visit, bool whole);
     VoxelRegion region_of(Slices slices, std::span<const std::int64_t> numbers) const;
     VoxelRegion between_planes(std::int64_t lo, std::int64_t hi) const;
     VoxelRegion with_block(const VoxelRegion& region) const;
@@ -75,6 +80,9 @@ class Tile {
     bool between_nodes_ = true;
     std::uint64_t samples_ = 0;
     std::unique_ptr<Planes> planes_;
+    // Kept from layer to layer for their memory.
+    std::vector<std::int64_t> octant_rows_;
+    std::vector<MicroLayer::Run> runs_, next_runs_;
 };
 
 extern template class Tile<std::uint8_t>;

@@ -41,7 +41,7 @@ VoxelRegion Tile<Code>::region_of(Slices slices, std::span<const std::int64_t> n
             ends_of(slice.fast_offset, slice.fast_scale, pixels.x0 + rect_.x0, pixels.x1 + rect_.x0));
         add(ends[1],
             ends_of(slice.slow_offset, slice.slow_scale, pixels.y0 + rect_.y0, pixels.y1 + rect_.y0));
-        const double w = plan_.node_place(numbers[n]);
+        const double w = plan_.slice_plan(numbers[n]).place;
         add(ends[2], {w, w});
     }
     VoxelRegion region;
