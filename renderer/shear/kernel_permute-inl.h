@@ -232,7 +232,7 @@ struct Prepared {
 };
 
 // One row of a chunk on all slices.
-template <bool between_nodes, bool one_hue>
+template <bool between_nodes, bool one_hue, bool narrow>
 HWY_INLINE std::uint64_t composite_row_of_chunk(const Slab<std::uint8_t>& slab, const Prepared& prepared,
                                                 const OpacityTable& table, const Rays& rays, int i, int j) {
     const std::ptrdiff_t ray = j * rays.stride + i;
@@ -255,7 +255,7 @@ HWY_INLINE std::uint64_t composite_row_of_chunk(const Slab<std::uint8_t>& slab, 
             continue;
         }
         taken += static_cast<std::uint64_t>(std::popcount(wanted));
-        const __m512i codes = codes_along(slab, slice, j, prepared.rows[k], prepared.permutations[k]);
+        const __m512i codes = codes_along<narrow>(slab, slice, j, prepared.rows[k], prepared.permutations[k]);
         if (prepared.opaque.none(codes)) {
             continue;
         }
@@ -317,9 +317,13 @@ std::uint64_t composite_permuting_as(const Slab<std::uint8_t>& slab, const Opaci
         for (std::size_t k = 0; k < static_cast<std::size_t>(slab.count); ++k) {
             prepared.permutations[k] = permutation_of(slab, slab.slices[k], i, most);
         }
+        const bool narrow = (std::min(pixels.x1, i + most) - std::max(pixels.x0, i)) * scale <= narrow_voxels;
         for (int j = pixels.y0; j < pixels.y1; ++j) {
             fetching.step();
-            taken += composite_row_of_chunk<between_nodes, one_hue>(slab, prepared, table, rays, i, j);
+            taken += narrow ? composite_row_of_chunk<between_nodes, one_hue, true>(slab, prepared, table,
+                                                                                   rays, i, j)
+                            : composite_row_of_chunk<between_nodes, one_hue, false>(slab, prepared, table,
+                                                                                    rays, i, j);
         }
     }
     return taken;

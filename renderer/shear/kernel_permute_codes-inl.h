@@ -16,6 +16,7 @@ namespace shearwater::shear::HWY_NAMESPACE {
 
 inline constexpr int permuted_pixels = 32;
 inline constexpr int permuted_voxels = 64;
+inline constexpr int narrow_voxels = 28;  // that a narrow chunk's pixels span
 static_assert(cell_steps == 127, "both weights are signed bytes, and codes times it signed words");
 
 // Where eight pixels lie, in cell_steps from a voxel: what place_of gives, undivided.
@@ -33,6 +34,7 @@ struct Permutation {
     __m512i left, right;  // indices into a row interpolated across
     __m512i fraction;     // 15 bits
     std::ptrdiff_t first;
+    int needed;  // voxels, from that on
     std::uint32_t wanted;
 };
 
@@ -94,6 +96,8 @@ HWY_INLINE Permutation permutation_of(const Slab<std::uint8_t>& slab, const Slic
     permutation.right = index(_mm512_add_epi16(cell, _mm512_set1_epi16(1)));
     permutation.fraction = words_of_pixels(low, high, 0);
     permutation.first = first - slab.fast_first;
+    // Rounding to steps may lead to the next voxel, and interpolation to the one beyond.
+    permutation.needed = static_cast<int>(static_cast<std::int64_t>(std::max(from, to)) - first) + 3;
     permutation.wanted = 0xffffffffU >> (permuted_pixels - count) << begin;
     return permutation;
 }
@@ -124,7 +128,23 @@ HWY_INLINE void lay_rows(const Slab<std::uint8_t>& slab, const Slice<std::uint8_
     }
 }
 
+// Voxels of a row from one on: all permuted_voxels, or of a narrow chunk no more than it needs, for lines of
+// memory that no sample lies on would have to be waited for.
+template <bool narrow>
+HWY_INLINE __m512i voxels_at(const std::uint8_t* first, int needed) {
+    if constexpr (narrow) {
+        if (needed <= 16) {
+            return _mm512_castsi128_si512(_mm_loadu_si128(reinterpret_cast<const __m128i*>(first)));
+        }
+        if (needed <= 32) {
+            return _mm512_castsi256_si512(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(first)));
+        }
+    }
+    return _mm512_loadu_si512(first);
+}
+
 // Codes in cell_steps at the pixels of one row.
+template <bool narrow>
 HWY_INLINE __m512i codes_along(const Slab<std::uint8_t>& slab, const Slice<std::uint8_t>& slice, int j,
                                const RowPlaces& places, const Permutation& permutation) {
     const auto row = static_cast<std::size_t>(j);
@@ -133,8 +153,8 @@ HWY_INLINE __m512i codes_along(const Slab<std::uint8_t>& slab, const Slice<std::
     const std::ptrdiff_t stride = slab.stride;
     __m512i low, high;
     const auto across = [&](const std::uint8_t* voxels) HWY_ATTR {
-        const __m512i row0 = _mm512_loadu_si512(voxels + from);
-        const __m512i row1 = _mm512_loadu_si512(voxels + from + stride);
+        const __m512i row0 = voxels_at<narrow>(voxels + from, permutation.needed);
+        const __m512i row1 = voxels_at<narrow>(voxels + from + stride, permutation.needed);
         low = _mm512_maddubs_epi16(_mm512_unpacklo_epi8(row0, row1), weights);
         high = _mm512_maddubs_epi16(_mm512_unpackhi_epi8(row0, row1), weights);
     };
