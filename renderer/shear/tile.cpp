@@ -175,36 +175,41 @@ void Tile<Code>::render_slices(Slices slices, std::span<const std::int64_t> numb
     }
 }
 
-// Row by row, those together that are alike.
+// Row by row, those together that are alike. The memory that all of it takes is fetched first: it lies too
+// strewn for the processor to foresee.
 template <class Code>
 void Tile<Code>::render_octants(Slices slices, std::span<const std::int64_t> numbers, const MicroLayer& layer,
                                 int half, const MicroRun& fast, const MicroRun& slow) {
-    const MicroRun all_rows = slow;
     front_to_back(plan_, codes_.micro_bricks(), plan_.slow_axis(), slow, octant_rows_);
+    pieces_.clear();
     runs_.clear();
-    MicroRun rows{0, 0};
-    const auto flush = [&] {
-        for (const MicroLayer::Run& run : runs_) {
-            render_run(slices, numbers, run, rows, fast, all_rows);
-        }
-    };
+    std::size_t first = 0;  // of the pieces of the last rows
     for (const std::int64_t row : octant_rows_) {
         layer.runs(fast, row, half, next_runs_);
-        if (next_runs_ == runs_ && (row == rows.end || row == rows.first - 1)) {
-            rows = {std::min(rows.first, row), std::max(rows.end, row + 1)};
+        if (!next_runs_.empty() && next_runs_ == runs_ &&
+            (row == pieces_.back().rows.end || row == pieces_.back().rows.first - 1)) {
+            for (Piece& piece : std::span(pieces_).subspan(first)) {
+                piece.rows = {std::min(piece.rows.first, row), std::max(piece.rows.end, row + 1)};
+            }
             continue;
         }
-        flush();
-        rows = {row, row + 1};
+        first = pieces_.size();
+        for (const MicroLayer::Run& run : next_runs_) {
+            pieces_.push_back({run, {row, row + 1}});
+        }
         std::swap(runs_, next_runs_);
     }
-    flush();
+    for (const Piece& piece : pieces_) {
+        fetch(voxels_.ahead(region_of(piece.run.along, piece.rows, numbers)));
+    }
+    for (const Piece& piece : pieces_) {
+        render_piece(slices, numbers, piece, fast, slow);
+    }
 }
 
-// The part of some slices that lies in a run of octants of some rows.
 template <class Code>
-void Tile<Code>::render_run(Slices slices, std::span<const std::int64_t> numbers, const MicroLayer::Run& run,
-                            const MicroRun& rows, const MicroRun& all_fast, const MicroRun& all_slow) {
+void Tile<Code>::render_piece(Slices slices, std::span<const std::int64_t> numbers, const Piece& piece,
+                              const MicroRun& fast, const MicroRun& slow) {
     const auto within = [&](int axis, const PixelRange& pixels, double offset, double scale,
                             const MicroRun& octants, const MicroRun& all) {
         const std::int64_t first = codes_.micro_bricks().first(axis) * micro_edge;
@@ -219,18 +224,18 @@ void Tile<Code>::render_run(Slices slices, std::span<const std::int64_t> numbers
         const Slice<Code>& slice = slices[n];
         const PixelRange columns =
             within(plan_.fast_axis(), {slice.pixels.x0, slice.pixels.x1},
-                   slice.fast_offset + slice.fast_scale * rect_.x0, slice.fast_scale, run.along, all_fast);
-        const PixelRange lines =
+                   slice.fast_offset + slice.fast_scale * rect_.x0, slice.fast_scale, piece.run.along, fast);
+        const PixelRange rows =
             within(plan_.slow_axis(), {slice.pixels.y0, slice.pixels.y1},
-                   slice.slow_offset + slice.slow_scale * rect_.y0, slice.slow_scale, rows, all_slow);
-        if (!columns.empty() && !lines.empty()) {
+                   slice.slow_offset + slice.slow_scale * rect_.y0, slice.slow_scale, piece.rows, slow);
+        if (!columns.empty() && !rows.empty()) {
             part[count] = slice;
-            part[count].pixels = {columns.first, lines.first, columns.last, lines.last};
+            part[count].pixels = {columns.first, rows.first, columns.last, rows.last};
             part_numbers[count++] = numbers[n];
         }
     }
     if (count > 0) {
-        render_part(Slices(part).first(count), std::span(part_numbers).first(count), run.visit, false);
+        render_part(Slices(part).first(count), std::span(part_numbers).first(count), piece.run.visit, false);
     }
 }
 

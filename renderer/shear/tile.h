@@ -47,6 +47,10 @@ class Tile {
         alignas(64) std::array<Plane, Slab<Code>::max_slices> lengths;  // of slices with shorter ones
     };
     using Slices = std::span<const Slice<Code>>;
+    struct Piece {  // a run of octants of some rows
+        MicroLayer::Run run;
+        MicroRun rows;
+    };
 
     void prepare_rays();
     std::int64_t cell_of(std::int64_t k) const;
@@ -55,10 +59,12 @@ class Tile {
     void render_slices(Slices slices, std::span<const std::int64_t> numbers);
     void render_octants(Slices slices, std::span<const std::int64_t> numbers, const MicroLayer& layer,
                         int half, const MicroRun& fast, const MicroRun& slow);
-    void render_run(Slices slices, std::span<const std::int64_t> numbers, const MicroLayer::Run& run,
-                    const MicroRun& rows, const MicroRun& all_fast, const MicroRun& all_slow);
+    void render_piece(Slices slices, std::span<const std::int64_t> numbers, const Piece& piece,
+                      const MicroRun& fast, const MicroRun& slow);
     void render_part(Slices slices, std::span<const std::int64_t> numbers, Visit visit, bool whole);
     VoxelRegion region_of(Slices slices, std::span<const std::int64_t> numbers) const;
+    VoxelRegion region_of(const MicroRun& fast, const MicroRun& slow,
+                          std::span<const std::int64_t> numbers) const;
     VoxelRegion between_planes(std::int64_t lo, std::int64_t hi) const;
     VoxelRegion with_block(const VoxelRegion& region) const;
     VoxelRegion behind(const VoxelRegion& region) const;
@@ -83,6 +89,7 @@ class Tile {
     // Kept from layer to layer for their memory.
     std::vector<std::int64_t> octant_rows_;
     std::vector<MicroLayer::Run> runs_, next_runs_;
+    std::vector<Piece> pieces_;
 };
 
 extern template class Tile<std::uint8_t>;

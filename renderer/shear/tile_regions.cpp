@@ -57,6 +57,25 @@ VoxelRegion Tile<Code>::region_of(Slices slices, std::span<const std::int64_t> n
     return region;
 }
 
+// The voxels of some octants on the planes of some slices, in order.
+template <class Code>
+VoxelRegion Tile<Code>::region_of(const MicroRun& fast, const MicroRun& slow,
+                                  std::span<const std::int64_t> numbers) const {
+    const std::array<int, 2> axes{plan_.fast_axis(), plan_.slow_axis()};
+    const auto [near, far] =
+        std::minmax(plan_.slice_plan(numbers.front()).place, plan_.slice_plan(numbers.back()).place);
+    VoxelRegion region{{0, 0, static_cast<std::int64_t>(near)},
+                       {0, 0, static_cast<std::int64_t>(std::ceil(far))}};
+    for (std::size_t n = 0; n < axes.size(); ++n) {
+        const MicroRun& octants = n == 0 ? fast : slow;
+        const auto a = static_cast<std::size_t>(axes[n]);
+        const std::int64_t first = codes_.micro_bricks().first(axes[n]) * micro_edge;
+        region.lo[n] = std::max(first + octants.first * CodeVolume::octant_edge, codes_.box().lo[a]);
+        region.hi[n] = std::min(first + octants.end * CodeVolume::octant_edge, codes_.box().hi[a]);
+    }
+    return region;
+}
+
 // What the tile's pixels need of the planes lo to hi across the principal axis, both included.
 template <class Code>
 VoxelRegion Tile<Code>::between_planes(std::int64_t lo, std::int64_t hi) const {
@@ -121,10 +140,14 @@ VoxelRegion Tile<Code>::behind(const VoxelRegion& region) const {
 }
 
 template VoxelRegion Tile<std::uint8_t>::region_of(Slices, std::span<const std::int64_t>) const;
+template VoxelRegion Tile<std::uint8_t>::region_of(const MicroRun&, const MicroRun&,
+                                                   std::span<const std::int64_t>) const;
 template VoxelRegion Tile<std::uint8_t>::between_planes(std::int64_t, std::int64_t) const;
 template VoxelRegion Tile<std::uint8_t>::with_block(const VoxelRegion&) const;
 template VoxelRegion Tile<std::uint8_t>::behind(const VoxelRegion&) const;
 template VoxelRegion Tile<std::uint16_t>::region_of(Slices, std::span<const std::int64_t>) const;
+template VoxelRegion Tile<std::uint16_t>::region_of(const MicroRun&, const MicroRun&,
+                                                    std::span<const std::int64_t>) const;
 template VoxelRegion Tile<std::uint16_t>::between_planes(std::int64_t, std::int64_t) const;
 template VoxelRegion Tile<std::uint16_t>::with_block(const VoxelRegion&) const;
 template VoxelRegion Tile<std::uint16_t>::behind(const VoxelRegion&) const;

@@ -1,5 +1,7 @@
 #include "renderer/shear/transpose.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "renderer/shear/transpose.cpp"
 #include <hwy/foreach_target.h>
@@ -12,9 +14,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr int side = 16;
 
 #if HWY_TARGET == HWY_SCALAR
-HWY_INLINE void turn_block(const std::uint8_t* from, std::ptrdiff_t stride, std::uint8_t* to,
+HWY_INLINE void turn_block(const std::uint8_t* from, std::ptrdiff_t stride, int rows, std::uint8_t* to,
                            std::ptrdiff_t to_stride) {
-    for (int i = 0; i < side; ++i) {
+    for (int i = 0; i < rows; ++i) {
         for (int j = 0; j < side; ++j) {
             to[j * to_stride + i] = from[i * stride + j];
         }
@@ -38,14 +40,14 @@ HWY_INLINE void turn_vectors(D d, V* a) {
     interleave(b, a);
 }
 
-// 16 rows of 16 bytes become 16 columns.
-HWY_INLINE void turn_block(const std::uint8_t* from, std::ptrdiff_t stride, std::uint8_t* to,
+// Up to 16 rows of 16 bytes become 16 columns.
+HWY_INLINE void turn_block(const std::uint8_t* from, std::ptrdiff_t stride, int rows, std::uint8_t* to,
                            std::ptrdiff_t to_stride) {
     const hn::FixedTag<std::uint8_t, side> d;
     using V = hn::Vec<decltype(d)>;
     V a[side];
     for (int i = 0; i < side; ++i) {
-        a[i] = hn::LoadU(d, from + i * stride);
+        a[i] = i < rows ? hn::LoadU(d, from + i * stride) : hn::Zero(d);
     }
     turn_vectors(d, a);
     for (int i = 0; i < side; ++i) {
@@ -103,7 +105,8 @@ void turn_8(const Stack<std::uint8_t>& from, std::uint8_t* to, std::ptrdiff_t co
         for (; row < block_rows; row += side) {
             for (int column = 0; column < block_columns; column += side) {
                 turn_block(matrix + row * from.row_stride + column, from.row_stride,
-                           turned + column * column_stride + row, column_stride);
+                           std::min(side, from.rows - row), turned + column * column_stride + row,
+                           column_stride);
             }
         }
         for (; row < from.rows; ++row) {

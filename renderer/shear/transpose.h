@@ -16,8 +16,8 @@ struct Stack {
 
 // Writes the stack with columns outermost and rows innermost: element (column, row, plane) goes to
 // to[column * column_stride + plane * plane_stride + row]. Both strides are multiples of 16, and up to 15
-// codes behind a row's last may be overwritten, before its own are; of the stack, up to 15 rows behind a
-// plane's last may be read, and 15 codes behind a row's.
+// codes behind a row's last may be overwritten, before its own are; of the stack, up to 15 codes behind
+// a row's last may be read.
 template <class Code>
 void turn(const Stack<Code>& from, Code* to, std::ptrdiff_t column_stride, std::ptrdiff_t plane_stride);
 
