@@ -40,7 +40,7 @@ struct Sampling {
     double resolution = 1;         // intermediate pixels per output pixel along a side
     int slice_exponent = 0;        // slices lie 2^slice_exponent voxels apart: 0, or -1 for half a voxel
     bool level_of_detail = false;  // or more, where voxels are smaller than intermediate pixels
-    bool finer_magnified = false;  // or half a voxel, where the nearest voxels span more than 1.25 of them
+    bool finer_magnified = false;  // or half a voxel, where nearer voxels span more than 1.25 of them
 
     bool operator==(const Sampling&) const = default;
 };

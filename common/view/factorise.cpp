@@ -257,9 +257,9 @@ double seen_from(double nearest, double eye, double least_slope, double greatest
     return nearest;
 }
 
-// Voxels from one intermediate pixel to the next where they are fewest, on the nearest plane of the cube that
-// a face sees.
-double least_voxels_per_pixel(const Factorisation& factorisation, const Plan& plan) {
+// Voxels from one intermediate pixel to the next where they are fewest, on a plane of the cube so far from
+// the nearest that a face sees (0) to the farthest (1).
+double least_voxels_per_pixel(const Factorisation& factorisation, const Plan& plan, double farther) {
     const Face& face = plan.face;
     const double fewest = std::min(face.pitch.x, face.pitch.y);
     if (factorisation.projection == Projection::parallel) {
@@ -276,33 +276,33 @@ double least_voxels_per_pixel(const Factorisation& factorisation, const Plan& pl
     double nearest = std::max(0.0, face.sign > 0 ? -eye : eye - last(face.axis));
     nearest = along(nearest, face.u_axis(), plan.range_u);
     nearest = along(nearest, face.v_axis(), plan.range_v);
-    return fewest * nearest;
+    const double farthest = face.sign > 0 ? last(face.axis) - eye : eye;
+    return fewest * (nearest + farther * (farthest - nearest));
 }
 
-// Voxels from one intermediate pixel to the next where they are fewest, over all faces.
-double least_voxels_per_pixel(const Factorisation& factorisation, const std::vector<Plan>& plans) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Plan& plan : plans) {
-        least = std::min(least, least_voxels_per_pixel(factorisation, plan));
-    }
-    return least;
-}
-
-// Pixels that a voxel spans where what lies between two slices begins to show.
+// Pixels that a voxel spans, a quarter into the cube, where what lies between two slices begins to show.
 constexpr double magnified = 1.25;
+constexpr double quarter = 0.25;
 
 int slice_exponent(const Factorisation& factorisation, const std::vector<Plan>& plans,
                    const Sampling& sampling) {
-    const double least = least_voxels_per_pixel(factorisation, plans);
+    const auto least_of = [&](double farther) {
+        double least = std::numeric_limits<double>::infinity();
+        for (const Plan& plan : plans) {
+            least = std::min(least, least_voxels_per_pixel(factorisation, plan, farther));
+        }
+        return least;
+    };
+    const double nearest = least_of(0);
     int level = 0;
     while (sampling.level_of_detail && level < volume::coarsest_level(factorisation.lattice.n) &&
-           std::ldexp(1.0, level + 1) <= least) {
+           std::ldexp(1.0, level + 1) <= nearest) {
         ++level;
     }
     if (level > 0) {
         return level;
     }
-    return sampling.finer_magnified && least * magnified < 1 ? -1 : sampling.slice_exponent;
+    return sampling.finer_magnified && least_of(quarter) * magnified < 1 ? -1 : sampling.slice_exponent;
 }
 
 }  // namespace

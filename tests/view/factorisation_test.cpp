@@ -277,7 +277,7 @@ TEST(Factorise, KeepsToTheLevelsThatTheCubeHas) {
     EXPECT_FALSE(sampling(Quality::high, false).level_of_detail);
 }
 
-TEST(Factorise, TakesTwoSlicesAVoxelWhereTheNearestVoxelsSpanMoreThanAPixel) {
+TEST(Factorise, TakesTwoSlicesAVoxelWhereVoxelsSpanMoreThanAPixel) {
     const Lattice cube{{64, 64, 64}};
     const auto exponent = [&](double height, Quality quality) {
         const Camera camera = camera_on({0, 0}, cube, Projection::parallel, 30, height);
@@ -288,6 +288,11 @@ TEST(Factorise, TakesTwoSlicesAVoxelWhereTheNearestVoxelsSpanMoreThanAPixel) {
     EXPECT_EQ(exponent(79, Quality::normal), -1);
     EXPECT_EQ(exponent(79, Quality::draft), 0);
     EXPECT_EQ(exponent(81, Quality::high), -1);
+    // The nearest corner alone counts for little.
+    for (const double azimuth : {10.0, 46.0, 82.0, 118.0}) {
+        const Camera whole = camera_on({azimuth, 20, 2.4 * 64}, cube);
+        EXPECT_EQ(factorise(whole, {64, 64}, cube, sampling(Quality::normal)).slice_exponent, 0) << azimuth;
+    }
     const Camera within = camera_on({0, 0, 3}, cube);
     EXPECT_EQ(factorise(within, {100, 100}, cube, sampling(Quality::normal)).slice_exponent, -1);
 }
