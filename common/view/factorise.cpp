@@ -257,13 +257,13 @@ double seen_from(double nearest, double eye, double least_slope, double greatest
     return nearest;
 }
 
-// Voxels from one intermediate pixel to the next where they are fewest, on a plane of the cube so far from
-// the nearest that a face sees (0) to the farthest (1).
-double least_voxels_per_pixel(const Factorisation& factorisation, const Plan& plan, double farther) {
+// How far from the eye the plane of the cube is that lies so far from the nearest that a face sees (0) to the
+// farthest (1): from pixel to pixel are pitch times as many voxels. In a parallel view they are as many as
+// the pitch.
+double spread_at(const Factorisation& factorisation, const Plan& plan, double farther) {
     const Face& face = plan.face;
-    const double fewest = std::min(face.pitch.x, face.pitch.y);
     if (factorisation.projection == Projection::parallel) {
-        return fewest;
+        return 1;
     }
     const auto last = [&](int axis) { return static_cast<double>(factorisation.lattice.n[axis] - 1); };
     const auto along = [&](double nearest, int axis, const Interval& slopes) {
@@ -277,7 +277,7 @@ double least_voxels_per_pixel(const Factorisation& factorisation, const Plan& pl
     nearest = along(nearest, face.u_axis(), plan.range_u);
     nearest = along(nearest, face.v_axis(), plan.range_v);
     const double farthest = face.sign > 0 ? last(face.axis) - eye : eye;
-    return fewest * (nearest + farther * (farthest - nearest));
+    return nearest + farther * (farthest - nearest);
 }
 
 // Pixels that a voxel spans, a quarter into the cube, where what lies between two slices begins to show.
@@ -286,23 +286,23 @@ constexpr double quarter = 0.25;
 
 int slice_exponent(const Factorisation& factorisation, const std::vector<Plan>& plans,
                    const Sampling& sampling) {
-    const auto least_of = [&](double farther) {
-        double least = std::numeric_limits<double>::infinity();
-        for (const Plan& plan : plans) {
-            least = std::min(least, least_voxels_per_pixel(factorisation, plan, farther));
-        }
-        return least;
-    };
-    const double nearest = least_of(0);
+    // Voxels from pixel to pixel: the fewest of all, and the fewest a quarter into the cube, as many along
+    // either side.
+    double fewest = std::numeric_limits<double>::infinity(), typical = fewest;
+    for (const Plan& plan : plans) {
+        const Vec2& pitch = plan.face.pitch;
+        fewest = std::min(fewest, std::min(pitch.x, pitch.y) * spread_at(factorisation, plan, 0));
+        typical = std::min(typical, std::sqrt(pitch.x * pitch.y) * spread_at(factorisation, plan, quarter));
+    }
     int level = 0;
     while (sampling.level_of_detail && level < volume::coarsest_level(factorisation.lattice.n) &&
-           std::ldexp(1.0, level + 1) <= nearest) {
+           std::ldexp(1.0, level + 1) <= fewest) {
         ++level;
     }
     if (level > 0) {
         return level;
     }
-    return sampling.finer_magnified && least_of(quarter) * magnified < 1 ? -1 : sampling.slice_exponent;
+    return sampling.finer_magnified && typical * magnified < 1 ? -1 : sampling.slice_exponent;
 }
 
 }  // namespace
