@@ -280,29 +280,38 @@ double spread_at(const Factorisation& factorisation, const Plan& plan, double fa
     return nearest + farther * (farthest - nearest);
 }
 
-// Pixels that a voxel spans, a quarter into the cube, where what lies between two slices begins to show.
-constexpr double magnified = 1.25;
-constexpr double quarter = 0.25;
-
-int slice_exponent(const Factorisation& factorisation, const std::vector<Plan>& plans,
-                   const Sampling& sampling) {
-    // Voxels from pixel to pixel: the fewest of all, and the fewest a quarter into the cube, as many along
-    // either side.
-    double fewest = std::numeric_limits<double>::infinity(), typical = fewest;
+// Voxels from pixel to pixel where they are fewest: on the nearest plane, along either side of a pixel.
+double fewest_voxels_per_pixel(const Factorisation& factorisation, const std::vector<Plan>& plans) {
+    double fewest = std::numeric_limits<double>::infinity();
     for (const Plan& plan : plans) {
         const Vec2& pitch = plan.face.pitch;
         fewest = std::min(fewest, std::min(pitch.x, pitch.y) * spread_at(factorisation, plan, 0));
-        typical = std::min(typical, std::sqrt(pitch.x * pitch.y) * spread_at(factorisation, plan, quarter));
     }
-    int level = 0;
-    while (sampling.level_of_detail && level < volume::coarsest_level(factorisation.lattice.n) &&
-           std::ldexp(1.0, level + 1) <= fewest) {
-        ++level;
+    return fewest;
+}
+
+// Whether voxels are so large that what lies between two slices shows, in what fills the picture: a quarter
+// into the cube.
+bool magnified(const Factorisation& factorisation, const std::vector<Plan>& plans) {
+    constexpr double most_pixels_per_voxel = 1.25, quarter = 0.25;
+    return std::any_of(plans.begin(), plans.end(), [&](const Plan& plan) {
+        const Vec2& pitch = plan.face.pitch;
+        return most_pixels_per_voxel * std::sqrt(pitch.x * pitch.y) *
+                   spread_at(factorisation, plan, quarter) <
+               1;
+    });
+}
+
+int slice_exponent(const Factorisation& factorisation, const std::vector<Plan>& plans,
+                   const Sampling& sampling) {
+    if (sampling.level_of_detail) {
+        // The level whose voxels are nearest to a pixel, by ratio.
+        const double level = std::round(std::log2(fewest_voxels_per_pixel(factorisation, plans)));
+        if (level > 0) {
+            return static_cast<int>(std::min<double>(level, volume::coarsest_level(factorisation.lattice.n)));
+        }
     }
-    if (level > 0) {
-        return level;
-    }
-    return sampling.finer_magnified && typical * magnified < 1 ? -1 : sampling.slice_exponent;
+    return sampling.finer_magnified && magnified(factorisation, plans) ? -1 : sampling.slice_exponent;
 }
 
 }  // namespace

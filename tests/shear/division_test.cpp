@@ -220,7 +220,7 @@ TEST(Division, OnCoarserLevelsGivesOnePicture) {
         const auto levels = expect_one_picture(cube, divisions,
                                                {.mapping = {.bits = bits},
                                                 .every = bits == 8 ? 1U : 5U,
-                                                .size = {71, 55},
+                                                .size = {91, 71},
                                                 .sampling = {.level_of_detail = true}});
         EXPECT_GT(levels.contains(1) ? levels.at(1) : 0, 2);
     }

@@ -207,7 +207,7 @@ TEST(Levels, ComeNearToThePictureOfEveryVoxel) {
     const auto volume = bricks_of(cube, workers);
     const auto tf = ramp_to(0.1);
     std::array<int, 3> chosen{};
-    for (const view::ImageSize& size : {view::ImageSize{80, 70}, view::ImageSize{40, 36}}) {
+    for (const view::ImageSize& size : {view::ImageSize{120, 105}, view::ImageSize{55, 49}}) {
         for (const auto& [name, camera] : all_views(lattice)) {
             const view::Sampling sampling{.level_of_detail = true};
             const auto f = view::factorise(camera, size, lattice, sampling);

@@ -234,7 +234,7 @@ double least_voxels_per_pixel(const Factorisation& f) {
     return least;
 }
 
-TEST(Factorise, ChoosesTheCoarsestLevelWhoseVoxelsAreNoLargerThanAPixel) {
+TEST(Factorise, ChoosesTheLevelWhoseVoxelsAreNearestToAPixel) {
     const Lattice large{{1000, 300, 1600}, {1, 1.3, 0.7}};
     std::array<int, volume::max_level + 1> chosen{};
     std::mt19937 random(3);
@@ -253,9 +253,8 @@ TEST(Factorise, ChoosesTheCoarsestLevelWhoseVoxelsAreNoLargerThanAPixel) {
         if (f.faces.empty() || std::isinf(least)) {
             continue;
         }
-        EXPECT_LE(f.level() == 0 ? 0 : f.slice_pitch(), least) << i;
-        EXPECT_TRUE(f.level() == volume::max_level ||
-                    2 * f.slice_pitch() > 0.97 * least)
+        EXPECT_LE(f.level() == 0 ? 0 : f.slice_pitch(), std::sqrt(2) * least) << i;
+        EXPECT_TRUE(f.level() == volume::max_level || f.slice_pitch() > 0.97 * least / std::sqrt(2))
             << i << ": " << least;
         ++chosen.at(static_cast<std::size_t>(f.level()));
     }
@@ -286,7 +285,7 @@ TEST(Factorise, TakesTwoSlicesAVoxelWhereVoxelsSpanMoreThanAPixel) {
     // 0.81 and 0.79 voxels a pixel of the picture.
     EXPECT_EQ(exponent(81, Quality::normal), 0);
     EXPECT_EQ(exponent(79, Quality::normal), -1);
-    EXPECT_EQ(exponent(79, Quality::draft), 0);
+    EXPECT_GE(exponent(79, Quality::draft), 0);
     EXPECT_EQ(exponent(81, Quality::high), -1);
     // The nearest corner alone counts for little.
     for (const double azimuth : {10.0, 46.0, 82.0, 118.0}) {
