@@ -27,31 +27,32 @@ double distance(const FacePlan& plan, const CodeGrid& grid, int axis, const Micr
 }  // namespace
 
 MicroLayer::MicroLayer(const CodeVolume& codes, const Classification& classification, const FacePlan& plan,
-                       std::int64_t layer)
-    : plan_(plan), grid_(codes.micro_bricks()) {
+                       std::int64_t layer, const MicroRun& fast, const MicroRun& slow)
+    : plan_(plan), grid_(codes.micro_bricks()), first_row_(slow.first) {
     const volume::Index3& counts = grid_.counts();
     const volume::Index3 strides{1, counts[0], counts[0] * counts[1]};
     first_ = classification.micro_bricks[static_cast<std::size_t>(plan.level())].data() +
              layer * strides[static_cast<std::size_t>(plan.face().axis)];
     fast_stride_ = strides[static_cast<std::size_t>(plan.fast_axis())];
     slow_stride_ = strides[static_cast<std::size_t>(plan.slow_axis())];
-}
-
-Visit MicroLayer::visit(const MicroRun& fast, const MicroRun& slow) const {
     std::int64_t opaque = 0, blank = 0;
     for (std::int64_t s = slow.first; s < slow.end; ++s) {
+        std::uint8_t any = 0;
         for (std::int64_t f = fast.first; f < fast.end; ++f) {
             const Content& content = at(f, s);
+            any |= content.opaque_octants;
             opaque += std::popcount(content.opaque_octants);
             blank += content.blanks ? 1 : 0;
         }
+        opaque_octants_.push_back(any);
     }
     const std::int64_t count = (fast.end - fast.first) * (slow.end - slow.first);
-    if (opaque == 0) {
-        return Visit::none;
+    if (opaque > 0) {
+        const bool most = 2 * opaque >= 8 * count;
+        visit_ = most && blank == 0       ? Visit::full
+                 : most && blank == count ? Visit::with_blanks
+                                          : Visit::parts;
     }
-    const bool most = 2 * opaque >= 8 * count;
-    return most && blank == 0 ? Visit::full : most && blank == count ? Visit::with_blanks : Visit::parts;
 }
 
 void MicroLayer::runs(const MicroRun& fast, std::int64_t slow, int half, std::vector<Run>& out) const {
@@ -60,6 +61,9 @@ void MicroLayer::runs(const MicroRun& fast, std::int64_t slow, int half, std::ve
     const auto near = static_cast<int>(slow % 2 << plan_.slow_axis() | half << plan_.face().axis);
     const int far = near | 1 << plan_.fast_axis();
     const unsigned both = 1U << near | 1U << far;
+    if ((opaque_octants_[static_cast<std::size_t>(slow / 2 - first_row_)] & both) == 0) {
+        return;
+    }
     bool open = false;  // whether the last run may go on: no octant since was blank and not to be visited so
     for (std::int64_t f = fast.first / 2; 2 * f < fast.end; ++f) {
         const Content& content = at(f, slow / 2);
@@ -94,9 +98,15 @@ void front_to_back(const FacePlan& plan, const CodeGrid& grid, int axis, const M
     for (std::int64_t n = range.first; n < range.end; ++n) {
         order.push_back(n);
     }
-    std::stable_sort(order.begin(), order.end(), [&](std::int64_t a, std::int64_t b) {
-        return distance(plan, grid, axis, {a, a + 1}) < distance(plan, grid, axis, {b, b + 1});
-    });
+    // Mostly they are in order, this way or that.
+    const auto distance_of = [&](std::int64_t n) { return distance(plan, grid, axis, {n, n + 1}); };
+    if (distance_of(order.back()) < distance_of(order.front())) {
+        std::reverse(order.begin(), order.end());
+    }
+    const auto nearer = [&](std::int64_t a, std::int64_t b) { return distance_of(a) < distance_of(b); };
+    if (!std::is_sorted(order.begin(), order.end(), nearer)) {
+        std::stable_sort(order.begin(), order.end(), nearer);
+    }
 }
 
 }  // namespace shearwater::shear

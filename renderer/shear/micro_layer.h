@@ -26,11 +26,12 @@ enum class Visit {
 
 class MicroLayer {
   public:
-    // `layer` counts along the principal axis from the sub-volume's first.
+    // The part of a layer between micro-bricks; `layer` counts along the principal axis from the sub-volume's
+    // first.
     MicroLayer(const CodeVolume& codes, const Classification& classification, const FacePlan& plan,
-               std::int64_t layer);
+               std::int64_t layer, const MicroRun& fast, const MicroRun& slow);
 
-    Visit visit(const MicroRun& fast, const MicroRun& slow) const;
+    Visit visit() const { return visit_; }
 
     // Octants of a row to visit alike. What is between two such and a little more work than going round it
     // is visited with them.
@@ -39,7 +40,8 @@ class MicroLayer {
         Visit visit;
         bool operator==(const Run&) const = default;
     };
-    // Those of a row of octants, front to back; `half` is 0 for those nearer to the cube's first plane.
+    // Those of a row of octants in the part, front to back; `half` is 0 for those nearer to the cube's first
+    // plane.
     void runs(const MicroRun& fast, std::int64_t slow, int half, std::vector<Run>& out) const;
 
   private:
@@ -51,6 +53,9 @@ class MicroLayer {
     std::ptrdiff_t fast_stride_, slow_stride_;
     const FacePlan& plan_;
     const CodeGrid& grid_;
+    Visit visit_ = Visit::none;
+    std::int64_t first_row_;
+    std::vector<std::uint8_t> opaque_octants_;  // that any micro-brick of a row has
 };
 
 // Octants [first, end) along an in-plane axis in an order that is front to back along every ray.

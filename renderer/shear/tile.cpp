@@ -146,19 +146,19 @@ Slice<Code> Tile<Code>::slice_of(std::int64_t k) const {
 template <class Code>
 void Tile<Code>::render_slices(Slices slices, std::span<const std::int64_t> numbers) {
     const std::int64_t number = micro_layer(numbers.front());
-    const MicroLayer layer(codes_, classification_, plan_, number);
     const VoxelRegion region = region_of(slices, numbers);
     const auto run = [&](std::size_t n, int axis, std::int64_t edge) {
         const std::int64_t first = codes_.micro_bricks().first(axis) * micro_edge;
         return MicroRun{(region.lo[n] - first) / edge, (region.hi[n] - 1 - first) / edge + 1};
     };
     const int fast_axis = plan_.fast_axis(), slow_axis = plan_.slow_axis();
-    const Visit visit = layer.visit(run(0, fast_axis, micro_edge), run(1, slow_axis, micro_edge));
-    if (visit == Visit::none) {
+    const MicroLayer layer(codes_, classification_, plan_, number, run(0, fast_axis, micro_edge),
+                           run(1, slow_axis, micro_edge));
+    if (layer.visit() == Visit::none) {
         return;
     }
-    if (visit != Visit::parts) {
-        render_part(slices, numbers, visit, true);
+    if (layer.visit() != Visit::parts) {
+        render_part(slices, numbers, layer.visit(), true);
         return;
     }
     // Half a layer at a time, front to back.
