@@ -1,19 +1,20 @@
-// bench load: how fast a cube in the page cache becomes bricks and is seen, and how soon that ends when told to.
+// bench load: how fast a cube in the page cache becomes bricks and is seen, and how soon that ends when told
+// to.
 
 #include <cstdlib>
 #include <filesystem>
 
 #include "common/cube/open.h"
+#include "common/volume/levels.h"
 #include "common/volume/quantiser.h"
 #include "common/volume/statistics.h"
-#include "common/volume/levels.h"
-#include "deploy/bench/first_look.h"
 #include "deploy/bench/machine.h"
 #include "deploy/bench/options.h"
 #include "deploy/bench/report.h"
 #include "deploy/bench/stopping.h"
 #include "deploy/bench/subcommands.h"
 #include "deploy/bench/timing.h"
+#include "deploy/first_look.h"
 #include "deploy/progress_bar.h"
 #include "deploy/samples/sample.h"
 #include "protocol/daemon/interrupt.h"
@@ -117,23 +118,23 @@ class Loading {
         const volume::Mapping mapping{.lo = limits.lo, .hi = limits.hi, .bits = flags_.bits};
         time_quantising(mapping);
         std::optional<shear::BrickVolume> bricks;
-        const auto make_bricks = [&](const std::stop_token& stop) {
-            auto made = shear::BrickVolume::load(*cube_.source, volume::whole(cube_.info.n), cube_.info.n,
-                                                 mapping, workers_, {}, stop);
+        const double brick_seconds = time("bricks from the file", workers_.threads(), [&] {
+            bricks.reset();
+            auto made = load_bricks(*cube_.source, mapping, {});
             done = made ? base::Status{} : made.error();
             bricks = made ? std::optional(*std::move(made)) : std::nullopt;
-        };
-        const double brick_seconds =
-            time("bricks from the file", workers_.threads(), [&] { make_bricks({}); });
+        });
         if (!done) {
             return done;
         }
         time_frames(*bricks);
         bricks.reset();
-        time_to_end("stop: bricks", brick_seconds, make_bricks);
-        time_to_end("stop: count", count_seconds, [&](const std::stop_token& stop) {
-            histogram = volume::count_values(*cube_.source, volume::whole(cube_.info.n), cube_.info.n, workers_,
-                                             {}, stop);
+        time_stopped("stop: bricks", brick_seconds, [&](volume::VoxelSource& source, const auto& stop) {
+            static_cast<void>(load_bricks(source, mapping, stop));
+        });
+        time_stopped("stop: count", count_seconds, [&](volume::VoxelSource& source, const auto& stop) {
+            static_cast<void>(
+                volume::count_values(source, volume::whole(cube_.info.n), cube_.info.n, workers_, {}, stop));
         });
         time_sketch(mapping);
         return time_first_look();
@@ -151,30 +152,42 @@ class Loading {
 
     double voxels() const { return static_cast<double>(volume::voxel_count(cube_.info.n)); }
 
-    void time_to_end(const std::string& stage, double seconds,
-                     const std::function<void(const std::stop_token&)>& work) {
+    base::Result<shear::BrickVolume> load_bricks(volume::VoxelSource& source, const volume::Mapping& mapping,
+                                                 const std::stop_token& stop) {
+        return shear::BrickVolume::load(source, volume::whole(cube_.info.n), cube_.info.n, mapping, workers_,
+                                        {}, stop);
+    }
+
+    // Of work on the cube, which is opened first, as daemons do it, so that reading is stopped too.
+    void time_stopped(const std::string& stage, double seconds,
+                      const std::function<void(volume::VoxelSource&, const std::stop_token&)>& work) {
         deploy::ProgressBar bar(stage);
         bar.show(0);
-        add(stage, workers_.threads(), std::nullopt, time_to_stop(seconds, flags_.common.frames, work));
+        const Spread times = time_to_stop(seconds, flags_.common.frames, [&](const std::stop_token& stop) {
+            if (const auto cube = cube::open(cube_.info.path, {.stop = stop})) {
+                work(*cube->source, stop);
+            }
+        });
+        add(stage, workers_.threads(), std::nullopt, times);
     }
 
     // Where the source gives single rows: from the file to what can be drawn.
     void time_sketch(const volume::Mapping& mapping) {
         const int level = volume::sketch_level(cube_.info.n);
-        if (level == 0 || !cube_.source->concurrent()) {
+        if (level == 0 || !cube_.source->gives_rows()) {
             return;
         }
-        const auto sketch = [&](const std::stop_token& stop) {
-            const auto read = shear::Sketch::read(*cube_.source, volume::whole(cube_.info.n), cube_.info.n,
-                                                  level, workers_, stop);
+        const auto sketch = [&](volume::VoxelSource& source, const std::stop_token& stop) {
+            const auto read =
+                shear::Sketch::read(source, volume::whole(cube_.info.n), cube_.info.n, level, workers_, stop);
             if (read) {
                 const volume::Histogram histogram = read->histogram();
                 const shear::BrickVolume volume = read->volume(mapping, workers_);
             }
         };
-        const Spread times = measure_times(flags_.common.frames, [&] { sketch({}); });
+        const Spread times = measure_times(flags_.common.frames, [&] { sketch(*cube_.source, {}); });
         add("sketch", workers_.threads(), std::nullopt, times);
-        time_to_end("stop: sketch", times.median, sketch);
+        time_stopped("stop: sketch", times.median, sketch);
     }
 
     // A frame that takes long: a large one, of high quality, in which every voxel counts.
@@ -188,7 +201,8 @@ class Loading {
         };
         const Spread times = measure_times(flags_.common.frames, [&] { draw({}); });
         add("frame", workers_.threads(), std::nullopt, times);
-        time_to_end("stop: frame", times.median, draw);
+        add("stop: frame", workers_.threads(), std::nullopt,
+            time_to_stop(times.median, flags_.common.frames, draw));
     }
 
     // By daemons that are started for it.
@@ -199,7 +213,7 @@ class Loading {
         std::vector<double> first, whole;
         bool sketch = false;
         for (int i = 0; i < flags_.common.frames; ++i) {
-            const auto seen = first_look(cube, 2, flags_.common.threads);
+            const auto seen = deploy::first_look(cube, 2, flags_.common.threads);
             if (!seen) {
                 return seen.error();
             }
@@ -296,7 +310,8 @@ base::Status load(const Flags& flags) {
         return done;
     }
     report->note("MB are those of the cube as 32-bit floats.");
-    report->note("stop: from telling it to stop, at moments spread over its time, until it has. Pictures are those");
+    report->note(
+        "stop: from telling it to stop, at moments spread over its time, until it has. Pictures are those");
     report->note("of a server and two renderers, from their start on.");
     return report->close();
 }

@@ -94,7 +94,7 @@ class Branch {
     std::map<std::uint64_t, Pending> pending_;
     std::vector<MergeJob> complete_;
     std::map<int, wire::LinkId> voxel_routes_;  // by the asking renderer's place
-    std::array<bool, 2> histogram_news_{};  // by Counted
+    std::array<bool, 2> histogram_news_{};      // by Counted
 };
 
 }  // namespace shearwater::node

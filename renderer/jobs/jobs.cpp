@@ -99,10 +99,10 @@ void Jobs::put(SketchToDraw sketch) {
     boost::asio::post(drawing_, boost::asio::use_future([&] { sketch_ = std::move(sketch); })).wait();
 }
 
-// Nothing where the source gives single rows no faster than all: it goes without.
+// None where single rows cost as much as all: of voxels from the tree, or compressed in larger tiles.
 void Jobs::sketch(leaf::Job job, const leaf::Share& share, int level, volume::VoxelSource& source,
                   const std::stop_token& stop) {
-    if (level == 0 || !source.concurrent()) {
+    if (level == 0 || !source.gives_rows()) {
         return;
     }
     // What cannot be read is told by the pass over all voxels.

@@ -39,7 +39,7 @@ Sketch::Sketch(const Box& box, const Index3& n, int level)
 
 base::Result<Sketch> Sketch::read(volume::VoxelSource& source, const Box& box, const Index3& n, int level,
                                   base::Workers& workers, const std::stop_token& stop) {
-    base::check(source.concurrent() && volume::whole(n).contains(box), "rows of the cube can be read alone");
+    base::check(source.gives_rows() && volume::whole(n).contains(box), "rows of the cube can be read alone");
     constexpr std::int64_t most_nodes = 1 << 25;
     const std::string operation = "sketch " + volume::to_string(box);
     if (volume::nodes_of(box, level).voxels() > most_nodes) {
@@ -73,7 +73,9 @@ base::Result<Sketch> Sketch::read(volume::VoxelSource& source, const Box& box, c
             to[i] = values[std::min(i << level, values.size() - 1)];
         }
     };
-    if (!workers.for_each(nodes.planes(1) * nodes.planes(2), read_row, stop)) {
+    base::Workers alone(1);
+    base::Workers& readers = source.concurrent() ? workers : alone;
+    if (!readers.for_each(nodes.planes(1) * nodes.planes(2), read_row, stop)) {
         return base::error(base::Code::cancelled, operation, "stopped");
     }
     if (!outcome) {

@@ -27,8 +27,8 @@ extern template bool survey(const CodesOfBox<std::uint8_t>&, CodeGrid&, base::Wo
 extern template bool survey(const CodesOfBox<std::uint16_t>&, CodeGrid&, base::Workers&,
                             const std::stop_token&);
 
-// What a grid over a box makes of the ranges of one over its nodes of a level: each is added to all cells that
-// it reaches.
+// What a grid over a box makes of the ranges of one over its nodes of a level: each is added to all cells
+// that it reaches.
 void summarise(const CodeGrid& nodes, int level, CodeGrid& voxels);
 
 }  // namespace shearwater::shear

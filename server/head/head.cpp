@@ -222,7 +222,7 @@ volume::Mapping Head::mapping_from(const volume::Histogram& histogram) const {
 }
 
 void Head::settle_sketch(wire::Time now, Effects& effects) {
-    if (!branch_.take_histogram_news(Counted::sketches) || sketch_) {
+    if (!branch_.take_histogram_news(Counted::sketches) || sketch_ || roster_.cube().sketch_level == 0) {
         return;
     }
     const auto histogram = branch_.histogram(Counted::sketches);
@@ -339,10 +339,10 @@ void Head::begin_frames(wire::LinkId client, Session& session, wire::Time now, E
         render.set_frame(++last_frame_);
         *render.mutable_factorisation() = wire::to_wire(factorisation);
         *render.mutable_transfer_function() = wire::to_wire(view.tf);
-        frames_.emplace(last_frame_, FrameInWork{.client = client,
-                                                 .view = view,
-                                                 .asked = session.asked,
-                                                 .sketch = sketch.has_value()});
+        frames_.emplace(
+            last_frame_,
+            FrameInWork{
+                .client = client, .view = view, .asked = session.asked, .sketch = sketch.has_value()});
         session.in_flight.push_back(last_frame_);
         branch_.begin(factorisation, render, now, effects.net);
     }

@@ -2,8 +2,8 @@
 // The server as a pure state machine: the root of the tree and its control plane. Daemons join and are
 // given places; clients send views and are sent pictures, at most two of them on their way to each.
 //
-//   all have a sketch -> a client that welcomes them is sent pictures of it -> all are ready -> and now, unasked,
-//   the cube's picture of what it looks at
+//   all have a sketch -> a client that welcomes them is sent pictures of it -> all are ready -> and now,
+//   unasked, the cube's picture of what it looks at
 
 #include <cstdint>
 #include <map>

@@ -170,8 +170,8 @@ TEST(Bench, LoadMakesItsFileAndRemovesIt) {
             }
         }
         const std::vector<std::string> expected{
-            "read",        "read and count", "quantise in memory", "bricks from the file", "frame", "stop: frame",
-            "stop: bricks", "stop: count",   "picture of all"};
+            "read",        "read and count", "quantise in memory", "bricks from the file", "frame",
+            "stop: frame", "stop: bricks",   "stop: count",        "picture of all"};
         EXPECT_EQ(stages, expected) << "so small a cube has no sketch";
         EXPECT_GT(number(lines[3], "MB_per_s"), 0);
         EXPECT_TRUE(std::filesystem::is_empty(scratch.path()));

@@ -29,7 +29,8 @@ class FirstLook : public testing::Test {
         tree_.emplace(*std::move(tree));
         auto renderer = deploy::Process::start(
             "shearwater-renderer",
-            {"--server", wire::to_string(tree_->address()), "--node", "renderer-1", "--log", "warn"}, secret_);
+            {"--server", wire::to_string(tree_->address()), "--node", "renderer-1", "--log", "warn"},
+            secret_);
         ASSERT_TRUE(renderer);
         renderer_.emplace(*std::move(renderer));
         held_.emplace(tree_->address(), secret_, "renderer-2");
@@ -107,7 +108,8 @@ TEST_F(FirstLook, ComesByTheLimitsThatAreGiven) {
     held_->let_load();
     const auto whole = client.wait_whole(looks);
     ASSERT_TRUE(whole);
-    EXPECT_LE(support::difference(support::Single(path_, {.lo = 0, .hi = 2}).draw(view(true)), whole->image).largest,
+    EXPECT_LE(support::difference(support::Single(path_, {.lo = 0, .hi = 2}).draw(view(true)), whole->image)
+                  .largest,
               1);
 }
 

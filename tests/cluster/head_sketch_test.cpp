@@ -33,7 +33,9 @@ class HeadSketchTest : public testing::Test {
         up(client, pb::ROLE_CLIENT);
         up(other, pb::ROLE_CLIENT);
     }
-    static wire::LinkId control(std::uint32_t place) { return wire::LinkId{wire::first_accepted + 2 * place}; }
+    static wire::LinkId control(std::uint32_t place) {
+        return wire::LinkId{wire::first_accepted + 2 * place};
+    }
     static wire::LinkId child(std::uint32_t place) {
         return wire::LinkId{wire::first_accepted + 2 * place + 1};
     }
@@ -226,8 +228,8 @@ TEST_F(HeadSketchTest, IsNotForClientsThatHaveNotSaidSo) {
     EXPECT_FALSE(begun_[2].has_sketch());
 }
 
-// The client has it on its screen, or not yet: either way one of the cube follows, and what is still drawn of the
-// sketch is given up.
+// The client has it on its screen, or not yet: either way one of the cube follows, and what is still drawn of
+// the sketch is given up.
 TEST_F(HeadSketchTest, UnderWayIsGivenUpWhenTheCubeIsThere) {
     start();
     sketch_all();
@@ -300,7 +302,8 @@ TEST_F(HeadSketchTest, LevelsOfDetailAreTheServersWhereTheClientDoesNotSay) {
         begun_.clear();
         start({.range = volume::Limits{.lo = 0, .hi = 1}, .level_of_detail = by_default});
         load_all();
-        for (const std::optional<bool> wish : {std::optional<bool>(), std::optional(true), std::optional(false)}) {
+        for (const std::optional<bool> wish :
+             {std::optional<bool>(), std::optional(true), std::optional(false)}) {
             wire::View far = view(false);
             far.camera = view::camera_on({.distance = 400}, {.n = n, .spacing = {1, 1, 1}});
             far.level_of_detail = wish;

@@ -30,8 +30,10 @@ class JobsTest : public testing::Test {
                 .box = {{0, 0, 0}, {50, 19, 15}},
                 .place = 1};
     }
-    std::string write(int compression) {
-        support::FitsImage image{.bitpix = 16, .axes = {n[0], n[1], n[2]}, .raw = {}, .compression = compression};
+    std::string write(int compression, const std::vector<long>& tile = {}) {
+        support::FitsImage image{.bitpix = 16, .axes = {n[0], n[1], n[2]}, .raw = {}};
+        image.compression = compression;
+        image.tile = tile;
         for (int i = 0; i < n[0] * n[1] * n[2]; ++i) {
             image.raw.push_back(i % 251);
         }
@@ -41,7 +43,8 @@ class JobsTest : public testing::Test {
     }
     leaf::Draw draw(leaf::Job job, const std::optional<volume::Mapping>& sketch) const {
         const view::Lattice lattice{.n = n, .spacing = {1, 1, 1}};
-        view::Factorisation factorisation = view::factorise(view::camera_on({}, lattice), {32, 24}, lattice, {});
+        view::Factorisation factorisation =
+            view::factorise(view::camera_on({}, lattice), {32, 24}, lattice, {});
         factorisation.slice_exponent = sketch ? level : 0;
         return {job, 9, factorisation, view::default_transfer_function(), sketch};
     }
@@ -78,7 +81,8 @@ TEST_F(JobsTest, ASketchComesBeforeTheCount) {
     const auto sketched = next<leaf::Sketched>();
     ASSERT_TRUE(sketched);
     EXPECT_EQ(sketched->job, 1U);
-    EXPECT_EQ(sketched->histogram.valid(), 25U * 10 * 8) << "the box ends on nodes that others own, or beyond";
+    EXPECT_EQ(sketched->histogram.valid(), 25U * 10 * 8)
+        << "the box ends on nodes that others own, or beyond";
     const auto counted = next<leaf::Counted>();
     ASSERT_TRUE(counted && counted->histogram);
     EXPECT_EQ(counted->histogram->valid(), 50U * 20 * 16);
@@ -90,8 +94,20 @@ TEST_F(JobsTest, NoSketchIsMadeWhereNoneIsWanted) {
     EXPECT_EQ(sketches_, 0);
 }
 
-TEST_F(JobsTest, NoSketchIsMadeOfACompressedFile) {
+TEST_F(JobsTest, ASketchIsMadeOfAFileWhoseRowsAreCompressed) {
+    jobs_.perform(leaf::Count{1, share_of(write(0)), level});
+    const auto plain = next<leaf::Sketched>();
+    ASSERT_TRUE(next<leaf::Counted>());
     leaf::Share share = share_of(write(RICE_1));
+    share.hdu = 1;
+    jobs_.perform(leaf::Count{2, share, level});
+    const auto compressed = next<leaf::Sketched>();
+    ASSERT_TRUE(plain && compressed);
+    EXPECT_EQ(compressed->histogram.filled(), plain->histogram.filled());
+}
+
+TEST_F(JobsTest, NoSketchIsMadeOfAFileThatIsCompressedInLargerTiles) {
+    leaf::Share share = share_of(write(RICE_1, {n[0], 2, 1}));
     share.hdu = 1;
     jobs_.perform(leaf::Count{1, share, level});
     const auto counted = next<leaf::Counted>();
@@ -100,7 +116,8 @@ TEST_F(JobsTest, NoSketchIsMadeOfACompressedFile) {
     EXPECT_EQ(sketches_, 0);
 }
 
-// The load asks for voxels that never come; the sketch is drawn nevertheless, by one pair of limits and another.
+// The load asks for voxels that never come; the sketch is drawn nevertheless, by one pair of limits and
+// another.
 TEST_F(JobsTest, ASketchIsDrawnWhileALoadGoesOn) {
     jobs_.perform(leaf::Count{1, share_of(write(0)), level});
     ASSERT_TRUE(next<leaf::Counted>());

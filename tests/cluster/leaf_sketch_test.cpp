@@ -54,7 +54,8 @@ class LeafSketchTest : public testing::Test {
         return values;
     }
     static pb::Render render(std::uint64_t frame, int level, const std::optional<volume::Mapping>& sketch) {
-        view::Factorisation factorisation = view::factorise(view::camera_on({}, lattice), {20, 20}, lattice, {});
+        view::Factorisation factorisation =
+            view::factorise(view::camera_on({}, lattice), {20, 20}, lattice, {});
         factorisation.slice_exponent = level;
         pb::Render render;
         render.set_frame(frame);

@@ -81,8 +81,8 @@ TEST(Simulation, EveryOrderOfJoiningEndsInTheSamePicture) {
 
 constexpr volume::Index3 large_cube{70, 9, 11};  // with a level of its own for a sketch
 
-// However things fall, whoever welcomes sketches is sent the cube's picture in the end, unasked, and the picture
-// of a sketch, where one was sent, is the same for every tree. Whoever does not is never sent one.
+// However things fall, whoever welcomes sketches is sent the cube's picture in the end, unasked, and the
+// picture of a sketch, where one was sent, is the same for every tree. Whoever does not is never sent one.
 TEST(Simulation, ASketchComesFirstAndTheCubeByItself) {
     Waves source(true);
     std::optional<image::Image<image::Rgba8>> sketch, whole;
@@ -173,7 +173,8 @@ TEST(Simulation, AnyStormOfDeathsEndsWhole) {
         }
         const std::uint64_t last = simulation.ask(view);
         ASSERT_TRUE(simulation.run_until([&] { return simulation.answered_whole(last); })) << "seed " << seed;
-        EXPECT_EQ(support::difference(expected, picture_of(*simulation.newest_frame(), view)).largest, 0) << "seed " << seed;
+        EXPECT_EQ(support::difference(expected, picture_of(*simulation.newest_frame(), view)).largest, 0)
+            << "seed " << seed;
         EXPECT_TRUE(simulation.run_until([&] { return simulation.head().roster().all_ready(); }));
     }
 }

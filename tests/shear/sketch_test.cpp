@@ -71,7 +71,9 @@ void expect_nodes(const shear::BrickVolume& volume, int level, const FloatCube& 
     }
 }
 
-const std::vector<Box> boxes{volume::whole({131, 70, 97}), {{1, 2, 3}, {130, 69, 96}}, {{64, 0, 32}, {68, 5, 33}},
+const std::vector<Box> boxes{volume::whole({131, 70, 97}),
+                             {{1, 2, 3}, {130, 69, 96}},
+                             {{64, 0, 32}, {68, 5, 33}},
                              {{3, 5, 6}, {4, 6, 7}}};
 
 TEST(Sketch, HoldsTheVoxelsOnTheNodes) {
@@ -96,7 +98,8 @@ TEST(Sketch, ReadsOneRowForEachRowOfNodes) {
         ASSERT_TRUE(Sketch::read(source, box, cube.n(), 2, workers).has_value());
         const Box nodes = volume::nodes_of(box, 2);
         EXPECT_EQ(source.reads, nodes.planes(1) * nodes.planes(2));
-        EXPECT_LE(source.voxels, static_cast<std::size_t>(source.reads) * static_cast<std::size_t>(cube.n()[0]));
+        EXPECT_LE(source.voxels,
+                  static_cast<std::size_t>(source.reads) * static_cast<std::size_t>(cube.n()[0]));
     }
 }
 
@@ -131,8 +134,8 @@ TEST(Sketch, OfADivisionCountsWhatThatOfTheWholeDoes) {
     }
 }
 
-// A slab of one value, which no level can miss: the sketch's picture of it is the cube's, but for rays that cut
-// its edges between two slices.
+// A slab of one value, which no level can miss: the sketch's picture of it is the cube's, but for rays that
+// cut its edges between two slices.
 TEST(Sketch, OfAnEvenCubeGivesTheCubesPicture) {
     FloatCube cube({131, 70, 97}, [](double, double, double) { return 0.5F; });
     base::Workers workers(2);
@@ -145,8 +148,8 @@ TEST(Sketch, OfAnEvenCubeGivesTheCubesPicture) {
     const view::Camera camera = view::camera_on({}, lattice);
     view::Factorisation factorisation = view::factorise(camera, size, lattice, {});
     const auto picture = [&](const shear::BrickVolume& volume, shear::RenderStats& stats) {
-        return image::warp(factorisation, shear::render(volume, factorisation, tf, workers, &stats), camera, size,
-                           tf.background, workers);
+        return image::warp(factorisation, shear::render(volume, factorisation, tf, workers, &stats), camera,
+                           size, tf.background, workers);
     };
     shear::RenderStats by_voxels, by_nodes;
     const auto expected = picture(whole, by_voxels);

@@ -1,6 +1,6 @@
 #pragma once
-// A renderer of a real tree inside the test, with the daemon's own state machine, jobs and links, that does not load
-// its voxels until the test lets it.
+// A renderer of a real tree inside the test, with the daemon's own state machine, jobs and links, that does
+// not load its voxels until the test lets it.
 
 #include <boost/asio/io_context.hpp>
 #include <optional>

@@ -135,8 +135,8 @@ TEST(Bytes, OfAViewWithOrWithoutLevels) {
 
 // What sketches add, at the end of bodies whose beginnings are as before: whoever knows none passes over it.
 TEST(Bytes, OfWhatHasToDoWithSketches) {
-    const std::string added[] = {"5003", "3801", "221609000000000000f8bf11000000000000044018032010", "3001",
-                                 "4801", "4001"};
+    const std::string added[] = {"5003", "3801", "221609000000000000f8bf11000000000000044018032010",
+                                 "3001", "4801", "4001"};
     const std::vector<Message> sketches = sketch_examples();
     ASSERT_EQ(sketches.size(), std::size(added));
     for (std::size_t i = 0; i < sketches.size(); ++i) {

@@ -1,12 +1,13 @@
-#include "deploy/bench/first_look.h"
+#include "deploy/first_look.h"
 
+#include <chrono>
 #include <optional>
 
-#include "deploy/bench/timing.h"
+#include "deploy/local_tree.h"
 #include "protocol/daemon/runtime.h"
 #include "protocol/wire/convert.h"
 
-namespace shearwater::bench {
+namespace shearwater::deploy {
 
 namespace {
 
@@ -17,7 +18,7 @@ class Onlooker {
   public:
     static constexpr wire::LinkId server{1};
 
-    explicit Onlooker(Clock& clock) : clock_(clock) {}
+    explicit Onlooker(wire::Time start) : start_(start) {}
 
     std::vector<wire::NetEffect> handle(const wire::NetEvent& event) {
         if (const auto* down = std::get_if<wire::LinkDown>(&event)) {
@@ -53,13 +54,14 @@ class Onlooker {
             effects.emplace_back(wire::Send{server, wire::message(wire::to_wire(view))});
             asked_ = true;
         } else if (const auto* frame = std::get_if<pb::Frame>(&body)) {
-            elapsed_ += clock_.lap();
+            const double elapsed =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
             if (seen_.first == 0) {
-                seen_.first = elapsed_;
+                seen_.first = elapsed;
                 seen_.sketch = frame->sketch();
             }
             if (!frame->sketch() && frame->missing_size() == 0) {
-                seen_.whole = elapsed_;
+                seen_.whole = elapsed;
             }
             pb::FrameShown shown;
             shown.set_number(frame->number());
@@ -67,15 +69,15 @@ class Onlooker {
         } else if (const auto* state = std::get_if<pb::TreeState>(&body)) {
             for (const pb::Node& node : state->nodes()) {
                 if (node.phase() == pb::PHASE_FAILED) {
-                    failed_ = base::error(base::Code::io, "look at the cube", base::printable(node.error(), 400));
+                    failed_ =
+                        base::error(base::Code::io, "look at the cube", base::printable(node.error(), 400));
                 }
             }
         }
         return effects;
     }
 
-    Clock& clock_;
-    double elapsed_ = 0;
+    wire::Time start_;
     bool asked_ = false;
     FirstLook seen_;
     std::optional<base::Error> failed_;
@@ -84,15 +86,15 @@ class Onlooker {
 }  // namespace
 
 base::Result<FirstLook> first_look(const options::CubeOptions& cube, int renderers, int threads) {
-    Clock clock;
-    deploy::LocalTree::Options options{.cube = cube, .tree = {}, .threads = threads, .log_level = "warn"};
+    const wire::Time start = std::chrono::steady_clock::now();
+    LocalTree::Options options{.cube = cube, .tree = {}, .threads = threads, .log_level = "warn"};
     options.tree.tree = {renderers, 2};
     const link::Secret secret = link::Secret::random();
-    auto tree = deploy::LocalTree::start(options, secret);
+    auto tree = LocalTree::start(options, secret);
     if (!tree) {
         return tree.error();
     }
-    Onlooker onlooker(clock);
+    Onlooker onlooker(start);
     std::optional<daemon::Runtime> runtime;
     runtime.emplace("shearwater bench", secret, [&](const wire::NetEvent& event) {
         runtime->perform(onlooker.handle(event));
@@ -110,4 +112,4 @@ base::Result<FirstLook> first_look(const options::CubeOptions& cube, int rendere
     return onlooker.take();
 }
 
-}  // namespace shearwater::bench
+}  // namespace shearwater::deploy

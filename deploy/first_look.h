@@ -1,11 +1,10 @@
 #pragma once
 // How long a person waits in front of a new cube: for the first picture, and for the one of all voxels.
 
+#include "common/base/result.h"
 #include "common/options/cube_options.h"
-#include "common/volume/source.h"
-#include "deploy/over_links.h"
 
-namespace shearwater::bench {
+namespace shearwater::deploy {
 
 struct FirstLook {
     double first = 0;  // seconds from starting the daemons to a picture, of a sketch where one can be made
@@ -13,8 +12,8 @@ struct FirstLook {
     bool sketch = false;
 };
 
-// Starts a tree of so many renderers below a server, looks at the cube by its middle view, 512 x 512, and ends
-// the tree when the cube is seen. Errors as LocalTree::start and the link have them.
+// Starts a tree of so many renderers below a server, looks at the cube by its middle view, 512 x 512, and
+// ends the tree when the cube is seen. Errors as LocalTree::start and the link have them.
 base::Result<FirstLook> first_look(const options::CubeOptions& cube, int renderers, int threads);
 
-}  // namespace shearwater::bench
+}  // namespace shearwater::deploy
