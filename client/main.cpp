@@ -18,7 +18,7 @@ constexpr int unusable = 2;
 struct Options {
     std::string connect, secret_file, tf_file, screenshot;
     std::string size = "1280x800";
-    std::string lod = "on";
+    std::string lod;
     ui::WindowOptions window;
     model::Effort effort;
 };
@@ -37,9 +37,9 @@ void declare(CLI::App& app, Options& options) {
         "--secret-file", options.secret_file,
         fmt::format("A file of mode 0600 with the server's secret; else ${}", link::Secret::variable));
     app.add_option("--tf", options.tf_file, "Begin with the transfer function of this TOML file");
-    app.add_option("--lod", options.lod, "off: every voxel counts, however small in the picture")
-        ->check(CLI::IsMember({"on", "off"}))
-        ->capture_default_str();
+    app.add_option("--lod", options.lod,
+                   "off: every voxel counts, however small in the picture; else as the server has it")
+        ->check(CLI::IsMember({"on", "off"}));
     app.add_option("--size", options.size, "The window's size")->check(check_size)->capture_default_str();
     app.add_option("--scale", options.window.scale, "Pixels per nominal pixel; else as the display says")
         ->check(CLI::Range(0.5, 4.0));
@@ -88,7 +88,7 @@ base::Status run(Options options) {
     ui::Network network(*server, std::move(*secret), ui::Window::wake);
     ui::App app(**window, network,
                 {.tf = std::move(*tf),
-                 .level_of_detail = options.lod == "on",
+                 .level_of_detail = options.lod.empty() ? std::nullopt : std::optional(options.lod == "on"),
                  .effort = options.effort,
                  .screenshot = options.screenshot});
     return app.run();

@@ -85,7 +85,9 @@ base::Result<LocalTree> LocalTree::start(const Options& options, const link::Sec
     }
     std::vector<std::string> arguments = options.cube.arguments();
     const std::vector<std::string> shape = options.tree.arguments();
+    const std::vector<std::string> serving = options.serve.arguments();
     arguments.insert(arguments.end(), shape.begin(), shape.end());
+    arguments.insert(arguments.end(), serving.begin(), serving.end());
     arguments.insert(arguments.end(),
                      {"--log", options.log_level, "--threads", std::to_string(std::max(0, options.threads))});
     Pipe pipe;

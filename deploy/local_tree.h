@@ -9,6 +9,7 @@
 
 #include "common/base/result.h"
 #include "common/options/cube_options.h"
+#include "common/options/serve_options.h"
 #include "common/options/tree_options.h"
 #include "common/tree/topology.h"
 #include "protocol/link/secret.h"
@@ -42,6 +43,7 @@ class LocalTree {
     struct Options {
         options::CubeOptions cube;
         options::TreeOptions tree;
+        options::ServeOptions serve = {};
         int threads = 0;  // for all renderers together; 0: as many as processors
         std::string log_level = "warn";
     };

@@ -18,6 +18,7 @@ const std::string program = "shearwater serve";
 struct Flags {
     options::CubeOptions cube;
     options::TreeOptions tree;
+    options::ServeOptions serve;
     daemon::Options common;
 };
 
@@ -57,6 +58,7 @@ base::Status serve(const Flags& flags) {
     }
     auto tree = LocalTree::start({.cube = flags.cube,
                                   .tree = flags.tree,
+                                  .serve = flags.serve,
                                   .threads = flags.common.threads,
                                   .log_level = flags.common.log_level},
                                  chosen->secret);
@@ -98,6 +100,7 @@ Run add_serve(CLI::App& app) {
     app.add_option("cube", flags->cube.path, "the FITS file, or synthetic:KIND:SIZE")->required();
     flags->tree.add_to(app);
     flags->cube.add_to(app);
+    flags->serve.add_to(app);
     flags->common.add_to(app);
     return [flags] {
         const auto done = serve(*flags);

@@ -13,7 +13,7 @@ const std::string program = "shearwater view";
 struct Flags {
     TargetOptions target;
     std::string tf_file;
-    std::string lod = "on";
+    std::string lod;
     double target_rate = 20;
 };
 
@@ -27,7 +27,9 @@ base::Result<int> view(const Flags& flags) {
         return target.error();
     }
     std::vector<std::string> arguments{"--connect", wire::to_string(target->server)};
-    arguments.insert(arguments.end(), {"--lod", flags.lod});
+    if (!flags.lod.empty()) {
+        arguments.insert(arguments.end(), {"--lod", flags.lod});
+    }
     arguments.insert(arguments.end(), {"--target-rate", std::to_string(flags.target_rate)});
     if (!flags.tf_file.empty()) {
         arguments.insert(arguments.end(), {"--tf", flags.tf_file});

@@ -34,7 +34,9 @@ void ViewOptions::add_to(CLI::App& app) {
 }
 
 void add_lod(CLI::App& app, std::string& lod, const std::string& group) {
-    app.add_option("--lod", lod, "off: every voxel counts, however small in the picture")
+    app.add_option(
+           "--lod", lod,
+           "off: every voxel counts, however small in the picture; else on, or as a running server has it")
         ->check(CLI::IsMember({"on", "off"}))
         ->capture_default_str()
         ->group(group);

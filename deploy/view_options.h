@@ -2,6 +2,7 @@
 // The options of a still picture: camera, size, transfer function, quality, level of detail.
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct ViewOptions {
     std::string size = "512x512";
     std::string tf_file;
     std::string quality = "normal";
-    std::string lod = "on";
+    std::string lod;  // "on" or "off"; empty: as the server has it
 
     void add_to(CLI::App& app);
 
@@ -31,8 +32,13 @@ struct ViewOptions {
     base::Result<view::ImageSize> image_size() const;
     base::Result<view::TransferFunction> transfer_function() const;
     view::Quality quality_value() const;
-    bool level_of_detail() const { return lod == "on"; }
-    view::Sampling sampling() const { return view::sampling(quality_value(), level_of_detail()); }
+    std::optional<bool> level_of_detail() const {
+        return lod.empty() ? std::nullopt : std::optional(lod == "on");
+    }
+    // Without a server.
+    view::Sampling sampling() const {
+        return view::sampling(quality_value(), level_of_detail().value_or(true));
+    }
     // The camera for a cube, checked.
     base::Result<view::Camera> camera(const view::Lattice& lattice) const;
 };

@@ -8,7 +8,9 @@
 
 #include "common/cube/open.h"
 #include "common/options/cube_options.h"
+#include "common/options/serve_options.h"
 #include "common/options/tree_options.h"
+#include "common/volume/levels.h"
 #include "protocol/daemon/options.h"
 #include "protocol/daemon/runtime.h"
 #include "protocol/wire/words.h"
@@ -23,11 +25,13 @@ struct Flags {
     daemon::Options common;
     options::CubeOptions cube;
     options::TreeOptions tree;
+    options::ServeOptions serve;
 
     void add_to(CLI::App& app) {
         app.add_option("cube", cube.path, "the FITS file, or synthetic:KIND:SIZE")->required();
         tree.add_to(app);
         cube.add_to(app);
+        serve.add_to(app);
         common.add_to(app);
     }
 };
@@ -40,14 +44,16 @@ head::CubeFacts facts_of(const fits::CubeInfo& info, const options::CubeOptions&
             .unit = info.unit,
             .hdu = info.hdu,
             .plane = info.plane,
-            .lattice = {.n = info.n, .spacing = options.spacing_value()}};
+            .lattice = {.n = info.n, .spacing = options.spacing_value()},
+            .sketch_level = volume::sketch_level(info.n)};
 }
 
-head::Limits limits_of(const options::CubeOptions& options) {
+head::Limits limits_of(const options::CubeOptions& options, const options::ServeOptions& serve) {
     head::Limits limits{.range = {},
                         .percentile = options.percentile,
                         .stretch = options.stretch_value(),
-                        .bits = options.bits};
+                        .bits = options.bits,
+                        .level_of_detail = serve.level_of_detail()};
     if (options.range.size() == 2) {
         limits.range = volume::Limits{options.range[0], options.range[1]};
     }
@@ -66,7 +72,7 @@ int serve(const std::string& program, const Flags& flags, const link::Secret& se
     // All daemons may come at once, each with a link for its orders and one for its place.
     link_limits.handshakes += 2 * roster.plan().nodes.size();
     link_limits.links = 2 * roster.plan().nodes.size() + head::Head::max_clients + 16;
-    head::Head head(std::move(roster), limits_of(flags.cube));
+    head::Head head(std::move(roster), limits_of(flags.cube, flags.serve));
     std::optional<service::Service> service;
     std::optional<daemon::Runtime> runtime;
     const auto perform = [&](head::Effects effects) {

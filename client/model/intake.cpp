@@ -76,8 +76,12 @@ wire::Parsed<Cube> cube_from(const pb::CubeDescription& description) {
     if (!mapping) {
         return mapping.error();
     }
-    return Cube{base::printable(description.name()), base::printable(description.object()),
-                base::printable(description.unit(), 40), *lattice, *mapping};
+    return Cube{base::printable(description.name()),
+                base::printable(description.object()),
+                base::printable(description.unit(), 40),
+                *lattice,
+                *mapping,
+                description.provisional()};
 }
 
 wire::Parsed<Tree> tree_from(const pb::TreeState& state) {

@@ -114,11 +114,7 @@ void Session::on_message(const wire::Message& message, wire::Time now) {
         if (!cube) {
             return give_up(cube.error(), now);
         }
-        cube_ = std::move(*cube);
-        described_ = true;
-        unsent_ = wish_.has_value();
-        quality_ = pace_.for_single();
-        send_if_due(now);
+        on_cube(std::move(*cube), now);
     } else if (const auto* state = std::get_if<pb::TreeState>(&message.body)) {
         auto tree = tree_from(*state);
         if (!tree) {
@@ -130,6 +126,18 @@ void Session::on_message(const wire::Message& message, wire::Time now) {
     } else {
         const std::string what = std::string(wire::name(message.body)) + " is not for a client";
         give_up({pb::REASON_BAD_TYPE, what}, now);
+    }
+}
+
+// Other limits alone are no other view.
+void Session::on_cube(Cube cube, wire::Time now) {
+    const bool is_known = described_ && cube_->lattice == cube.lattice;
+    cube_ = std::move(cube);
+    described_ = true;
+    if (!is_known) {
+        unsent_ = wish_.has_value();
+        quality_ = pace_.for_single();
+        send_if_due(now);
     }
 }
 
@@ -174,8 +182,13 @@ void Session::on_frame(const wire::Message& message, wire::Time now) {
     if (sent->tree_ready && sent->revision == revision_ && sent->revision == answered_ + 1) {
         notice_link_speed(message.payload_size(), latency.count() - server_seconds);
     }
-    frame_ = FrameNote{sent->revision,         sent->size,    sent->quality, std::move(*missing),
-                       message.payload_size(), server_seconds};
+    frame_ = FrameNote{.revision = sent->revision,
+                       .size = sent->size,
+                       .quality = sent->quality,
+                       .missing = std::move(*missing),
+                       .sketch = frame.sketch(),
+                       .bytes = message.payload_size(),
+                       .server_seconds = server_seconds};
     picture_ = Picture{sent->revision, sent->quality, frame_->missing.empty(), std::move(*pixels)};
     retry_after_ = first_retry;
     ready_at_frame_ = tree_.in_phase(pb::PHASE_READY);
@@ -253,7 +266,8 @@ void Session::send_view(wire::Time now) {
                           .tf = wish_->tf,
                           .quality = quality_,
                           .deflate = deflate_,
-                          .level_of_detail = wish_->level_of_detail};
+                          .level_of_detail = wish_->level_of_detail,
+                          .sketch = true};
     effects_.push_back(wire::Send{link_, wire::message(wire::to_wire(view))});
     sent_.push_back({revision_, view.size, view.quality, now, tree_.nodes.empty() || tree_.ready});
     sent_at_ = now;

@@ -5,8 +5,9 @@
 //   dial -> CubeDescription, TreeState -> SetView (the newest wins) -> Frame -> FrameShown -> ...
 //
 // While the view moves it asks for pictures that come fast enough; when it rests, for a normal one and then
-// for a high one, and then for none (pace.h). The wish is kept over a lost link and asked for again on the
-// next.
+// for a high one, and then for none (pace.h). Until the cube is loaded, pictures are of a sketch of it: none
+// is refined, and the last view is answered once more, unasked, when it is. The wish is kept over a lost link
+// and asked for again on the next.
 
 #include <deque>
 #include <memory>
@@ -27,8 +28,8 @@ namespace shearwater::model {
 struct Wish {
     Viewpoint viewpoint;
     view::TransferFunction tf = view::default_transfer_function();
-    view::ImageSize size;  // at most what view::validate allows
-    bool level_of_detail = true;
+    view::ImageSize size;                 // at most what view::validate allows
+    std::optional<bool> level_of_detail;  // else as the server has it
     bool operator==(const Wish&) const = default;
 };
 
@@ -81,6 +82,7 @@ class Session {
     void on_up();
     void on_down(const wire::LinkDown& down, wire::Time now);
     void on_message(const wire::Message& message, wire::Time now);
+    void on_cube(Cube cube, wire::Time now);
     void on_tree(Tree tree, wire::Time now);
     void on_frame(const wire::Message& message, wire::Time now);
     void on_tick(wire::Time now);
@@ -90,8 +92,8 @@ class Session {
 
     bool is_worth_asking_again(wire::Time now) const;
     bool is_moving(wire::Time now) const { return wish_ && now - changed_at_ < rest_after; }
-    // The picture of the newest view sent has come, and no other is wanted.
-    bool has_come() const { return frame_ && frame_->revision == revision_ && !unsent_; }
+    // The cube's picture of the newest view sent has come, and no other is wanted.
+    bool has_come() const { return frame_ && frame_->revision == revision_ && !frame_->sketch && !unsent_; }
     void refine(wire::Time now);
     void send_if_due(wire::Time now);
     void send_view(wire::Time now);

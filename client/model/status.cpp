@@ -22,6 +22,13 @@ double Tree::loaded() const {
     return renderers() > 0 ? sum / renderers() : 0;
 }
 
+std::string Status::first_look() const {
+    if (!frame || !frame->sketch) {
+        return {};
+    }
+    return "first look, " + std::to_string(static_cast<int>(100 * tree.loaded())) + " % loaded";
+}
+
 int Tree::in_phase(wire::pb::Phase phase) const {
     return static_cast<int>(
         std::count_if(nodes.begin(), nodes.end(), [&](const Node& node) { return node.phase == phase; }));

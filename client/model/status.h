@@ -16,6 +16,7 @@ struct Cube {
     std::string name, object, unit;  // printable
     view::Lattice lattice;
     volume::Mapping mapping;
+    bool provisional = false;  // its limits, which are those of a sketch
     bool operator==(const Cube&) const = default;
 };
 
@@ -53,6 +54,7 @@ struct FrameNote {
     view::ImageSize size;
     view::Quality quality = view::Quality::normal;
     std::vector<Missing> missing;  // empty: the picture is whole
+    bool sketch = false;           // of a sketch of the cube, which is loading: its picture will follow
     std::size_t bytes = 0;         // as it travelled
     double server_seconds = 0;
 };
@@ -81,6 +83,9 @@ struct Status {
     std::optional<FrameNote> frame;
     Rates rates;
     bool refining = false;  // the view rests and a better picture of it is to come
+
+    // "first look, 43 % loaded" while the last picture is of a sketch; else empty.
+    std::string first_look() const;
 };
 
 // A decoded picture.

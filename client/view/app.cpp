@@ -205,7 +205,7 @@ void App::send_wish() {
 bool App::is_settled() const {
     const model::Status& status = desk_.status;
     return status.connection == model::Connection::connected && status.frame &&
-           status.frame->missing.empty() && desk_.picture_revision == status.sent &&
+           status.frame->missing.empty() && !status.frame->sketch && desk_.picture_revision == status.sent &&
            desk_.picture_quality == desk_.best_quality() && desk_.picture.width() == desk_.wish.size.width &&
            desk_.picture.height() == desk_.wish.size.height;
 }

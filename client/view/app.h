@@ -11,7 +11,7 @@ namespace shearwater::ui {
 
 struct AppOptions {
     view::TransferFunction tf = view::default_transfer_function();
-    bool level_of_detail = true;
+    std::optional<bool> level_of_detail;
     model::Effort effort;
     std::string screenshot;  // a file to write the window to once a whole high picture is seen; then it ends
 };

@@ -82,7 +82,7 @@ struct Progress {
     double fraction;  // below 0: unknown
 };
 
-// What there is to wait for before the first picture.
+// What there is to wait for before the first picture, be it a first look's.
 std::optional<Progress> progress_for(const Desk& desk) {
     const model::Status& status = desk.status;
     const model::Tree& tree = status.tree;
@@ -92,7 +92,8 @@ std::optional<Progress> progress_for(const Desk& desk) {
     if (status.connection != Connection::connected) {
         return std::nullopt;
     }
-    if (!tree.nodes.empty() && !tree.ready && tree.in_phase(wire::pb::PHASE_VACANT) == 0) {
+    if (status.first_look().empty() && !tree.nodes.empty() && !tree.ready &&
+        tree.in_phase(wire::pb::PHASE_VACANT) == 0) {
         const std::string name = desk.has_cube() ? desk.status.cube->name : "the cube";
         return Progress{
             "Loading " + name,

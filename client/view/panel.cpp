@@ -103,7 +103,8 @@ void cube_section(const Desk& desk) {
     small_text(desk, theme::muted,
                fmt::format("{} \u00d7 {} \u00d7 {} voxels, {} bits", n[0], n[1], n[2], cube.mapping.bits));
     small_text(desk, theme::muted,
-               fmt::format("{} to {}{}{}, {}", value_text(cube.mapping.lo), value_text(cube.mapping.hi),
+               fmt::format("{}{} to {}{}{}, {}", cube.provisional ? "about " : "",
+                           value_text(cube.mapping.lo), value_text(cube.mapping.hi),
                            cube.unit.empty() ? "" : " ", cube.unit, volume::name(cube.mapping.stretch)));
 }
 

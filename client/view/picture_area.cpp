@@ -117,6 +117,9 @@ struct QualityMark {
     ImU32 colour;
 };
 QualityMark quality_mark(const Desk& desk) {
+    if (std::string words = desk.status.first_look(); !words.empty()) {
+        return {std::move(words), theme::busy};
+    }
     constexpr const char* qualities[] = {"draft", "normal", "high"};
     const std::string name = qualities[static_cast<int>(desk.picture_quality)];
     if (desk.status.refining) {
@@ -130,7 +133,8 @@ float view_line(const Desk& desk, float right, float y) {
     if (!desk.picture.empty()) {
         const QualityMark mark = quality_mark(desk);
         // The place of the longest, so that nothing else moves when it changes.
-        right -= ImGui::CalcTextSize("normal, refining").x;
+        const bool first_look = desk.status.frame && desk.status.frame->sketch;
+        right -= ImGui::CalcTextSize(first_look ? "first look, 100 % loaded" : "normal, refining").x;
         ImGui::SetCursorScreenPos({right, y});
         text(theme::muted, mark.words);
         right -= desk.px(14);

@@ -131,4 +131,8 @@ bool Cube::concurrent() const {
     return file_->plain.has_value();
 }
 
+bool Cube::gives_rows() const {
+    return file_->plain.has_value() || file_->tiled.has_row_tiles();
+}
+
 }  // namespace shearwater::fits

@@ -50,6 +50,7 @@ class Cube final : public volume::VoxelSource {
     const CubeInfo& info() const;
     base::Status read(const volume::Box& box, std::span<float> out) override;
     bool concurrent() const override;
+    bool gives_rows() const override;  // also of one whose compressed tiles are rows
 
   private:
     struct File;

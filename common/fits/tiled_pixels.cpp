@@ -117,6 +117,14 @@ base::Result<TiledPixels> TiledPixels::prepare(fitsfile* file, const Hdu& hdu, c
     return pixels;
 }
 
+bool TiledPixels::has_row_tiles() const {
+    std::int64_t rows = 1;
+    for (std::size_t axis = 0; axis < tile_.size(); ++axis) {
+        rows *= static_cast<int>(axis) + 1 == axes_.axis[0] ? 1 : tile_[axis];
+    }
+    return rows == 1;
+}
+
 TiledPixels::Range TiledPixels::range_of(const volume::Box& box) const {
     Range range{std::vector<long>(dimensions_, 1), std::vector<long>(dimensions_, 1)};
     for (std::size_t i = 0; i < 3; ++i) {

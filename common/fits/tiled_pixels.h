@@ -32,6 +32,9 @@ class TiledPixels {
     base::Status read(fitsfile* file, const Bytes& bytes, const volume::Box& box, std::span<float> out,
                       const std::string& operation, const std::stop_token& stop);
 
+    // Whether a tile is a row of the cube, or a part of one.
+    bool has_row_tiles() const;
+
   private:
     // First and last pixel along each axis of the file, from 1 and both included.
     struct Range {

@@ -22,6 +22,19 @@ int coarsest_level(const Index3& n) {
     return level;
 }
 
+int sketch_level(const Index3& n) {
+    constexpr double enough_cells = 1 << 21, most_cells = 1 << 24;
+    const auto cells = [&](int level) {
+        const Index3 last = last_nodes(n, level);
+        return static_cast<double>(last[0]) * static_cast<double>(last[1]) * static_cast<double>(last[2]);
+    };
+    int level = 0;
+    while (level < coarsest_level(n) && cells(level) > enough_cells) {
+        ++level;
+    }
+    return cells(level) > most_cells ? 0 : level;
+}
+
 Index3 last_nodes(const Index3& n, int level) {
     return {rounded_up(n[0] - 1, level), rounded_up(n[1] - 1, level), rounded_up(n[2] - 1, level)};
 }

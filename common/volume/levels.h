@@ -17,6 +17,11 @@ inline constexpr int max_level = 5;
 // The coarsest that a cube of n voxels has: it has more than 32 nodes along the longest axis, or is level 0.
 int coarsest_level(const Index3& n);
 
+// The level of a sketch (renderer/shear/sketch.h) of a cube of n voxels: the finest of at most 2^21 cells,
+// those of 128^3, or the coarsest. 0 stands for none: where that is the voxels themselves, which are read as
+// fast, and where even the coarsest has more than 2^24 cells.
+int sketch_level(const Index3& n);
+
 // A level's last node along each axis.
 Index3 last_nodes(const Index3& n, int level);
 

@@ -20,6 +20,9 @@ class VoxelSource {
     // Whether read() may be called from several threads at once, and small boxes cost no more than large
     // ones. If not, it is called from one thread at a time, best for large boxes.
     virtual bool concurrent() const { return false; }
+
+    // Whether a single row along axis 0 costs no more than its share of the cube.
+    virtual bool gives_rows() const { return concurrent(); }
 };
 
 // Told the share done, 0 to 1, now and then while something long runs.

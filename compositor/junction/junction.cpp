@@ -7,6 +7,7 @@ namespace shearwater::junction {
 
 namespace pb = wire::pb;
 using namespace std::chrono_literals;
+using Counted = node::Branch::Counted;
 
 Effects Junction::start() {
     Effects effects;
@@ -21,7 +22,8 @@ Effects Junction::handle(const wire::NetEvent& event, wire::Time now) {
             on_assigned(effects);
             break;
         case node::Member::News::parent_up:
-            send_histogram(effects);
+            send_histogram(Counted::sketches, effects);
+            send_histogram(Counted::voxels, effects);
             break;
         case node::Member::News::parent_down:
             branch_.cancel_all(effects.net);
@@ -45,8 +47,10 @@ Effects Junction::handle(const wire::NetEvent& event, wire::Time now) {
             report(effects);
         }
     }
-    if (branch_.take_histogram_news()) {
-        send_histogram(effects);
+    for (const Counted counted : {Counted::sketches, Counted::voxels}) {
+        if (branch_.take_histogram_news(counted)) {
+            send_histogram(counted, effects);
+        }
     }
     for (node::MergeJob& job : branch_.take_complete()) {
         effects.merges.push_back({std::move(job)});
@@ -107,9 +111,11 @@ void Junction::on_child_message(const wire::Received& received, Effects& effects
     }
 }
 
-void Junction::send_histogram(Effects& effects) {
-    if (const auto histogram = branch_.histogram()) {
-        member_.tell_parent(wire::message(wire::to_wire(*histogram)), effects.net);
+void Junction::send_histogram(Counted counted, Effects& effects) {
+    if (const auto histogram = branch_.histogram(counted)) {
+        pb::HistogramReport report = wire::to_wire(*histogram);
+        report.set_sketch(counted == Counted::sketches);
+        member_.tell_parent(wire::message(std::move(report)), effects.net);
     }
 }
 

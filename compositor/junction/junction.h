@@ -47,7 +47,7 @@ class Junction {
     void on_assigned(Effects& effects);
     void on_parent_message(const wire::Received& received, wire::Time now, Effects& effects);
     void on_child_message(const wire::Received& received, Effects& effects);
-    void send_histogram(Effects& effects);
+    void send_histogram(node::Branch::Counted counted, Effects& effects);
     void report(Effects& effects);
 
     node::Member member_;

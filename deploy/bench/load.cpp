@@ -1,20 +1,26 @@
-// bench load: how fast a float cube in the page cache becomes bricks.
+// bench load: how fast a cube in the page cache becomes bricks and is seen, and how soon that ends when told
+// to.
 
 #include <cstdlib>
 #include <filesystem>
 
 #include "common/cube/open.h"
+#include "common/volume/levels.h"
 #include "common/volume/quantiser.h"
 #include "common/volume/statistics.h"
 #include "deploy/bench/machine.h"
 #include "deploy/bench/options.h"
 #include "deploy/bench/report.h"
+#include "deploy/bench/stopping.h"
 #include "deploy/bench/subcommands.h"
 #include "deploy/bench/timing.h"
+#include "deploy/first_look.h"
 #include "deploy/progress_bar.h"
 #include "deploy/samples/sample.h"
 #include "protocol/daemon/interrupt.h"
 #include "renderer/shear/brick_volume.h"
+#include "renderer/shear/render.h"
+#include "renderer/shear/sketch.h"
 
 namespace shearwater::bench {
 namespace {
@@ -101,7 +107,7 @@ class Loading {
         }
         auto histogram =
             volume::count_values(*cube_.source, volume::whole(cube_.info.n), cube_.info.n, workers_);
-        time("read and count", workers_.threads(), [&] {
+        const double count_seconds = time("read and count", workers_.threads(), [&] {
             histogram =
                 volume::count_values(*cube_.source, volume::whole(cube_.info.n), cube_.info.n, workers_);
         });
@@ -111,20 +117,115 @@ class Loading {
         const volume::Limits limits = volume::percentile_limits(*histogram, 99.5);
         const volume::Mapping mapping{.lo = limits.lo, .hi = limits.hi, .bits = flags_.bits};
         time_quantising(mapping);
-        time("bricks from the file", workers_.threads(), [&] {
-            const auto bricks = shear::BrickVolume::load(*cube_.source, volume::whole(cube_.info.n),
-                                                         cube_.info.n, mapping, workers_);
-            done = bricks ? base::Status{} : bricks.error();
+        std::optional<shear::BrickVolume> bricks;
+        const double brick_seconds = time("bricks from the file", workers_.threads(), [&] {
+            bricks.reset();
+            auto made = load_bricks(*cube_.source, mapping, {});
+            done = made ? base::Status{} : made.error();
+            bricks = made ? std::optional(*std::move(made)) : std::nullopt;
         });
-        return done;
+        if (!done) {
+            return done;
+        }
+        time_frames(*bricks);
+        bricks.reset();
+        time_stopped("stop: bricks", brick_seconds, [&](volume::VoxelSource& source, const auto& stop) {
+            static_cast<void>(load_bricks(source, mapping, stop));
+        });
+        time_stopped("stop: count", count_seconds, [&](volume::VoxelSource& source, const auto& stop) {
+            static_cast<void>(
+                volume::count_values(source, volume::whole(cube_.info.n), cube_.info.n, workers_, {}, stop));
+        });
+        time_sketch(mapping);
+        return time_first_look();
     }
 
   private:
-    void time(const std::string& stage, int threads, const std::function<void()>& work) {
+    // Returns the median.
+    double time(const std::string& stage, int threads, const std::function<void()>& work) {
         deploy::ProgressBar bar(stage);
         bar.show(0);
-        const auto voxels = static_cast<double>(volume::voxel_count(cube_.info.n));
-        add(stage, threads, voxels, measure_times(flags_.common.frames, work));
+        const Spread times = measure_times(flags_.common.frames, work);
+        add(stage, threads, voxels(), times);
+        return times.median;
+    }
+
+    double voxels() const { return static_cast<double>(volume::voxel_count(cube_.info.n)); }
+
+    base::Result<shear::BrickVolume> load_bricks(volume::VoxelSource& source, const volume::Mapping& mapping,
+                                                 const std::stop_token& stop) {
+        return shear::BrickVolume::load(source, volume::whole(cube_.info.n), cube_.info.n, mapping, workers_,
+                                        {}, stop);
+    }
+
+    // Of work on the cube, which is opened first, as daemons do it, so that reading is stopped too.
+    void time_stopped(const std::string& stage, double seconds,
+                      const std::function<void(volume::VoxelSource&, const std::stop_token&)>& work) {
+        deploy::ProgressBar bar(stage);
+        bar.show(0);
+        const Spread times = time_to_stop(seconds, flags_.common.frames, [&](const std::stop_token& stop) {
+            if (const auto cube = cube::open(cube_.info.path, {.stop = stop})) {
+                work(*cube->source, stop);
+            }
+        });
+        add(stage, workers_.threads(), std::nullopt, times);
+    }
+
+    // Where the source gives single rows: from the file to what can be drawn.
+    void time_sketch(const volume::Mapping& mapping) {
+        const int level = volume::sketch_level(cube_.info.n);
+        if (level == 0 || !cube_.source->gives_rows()) {
+            return;
+        }
+        const auto sketch = [&](volume::VoxelSource& source, const std::stop_token& stop) {
+            const auto read =
+                shear::Sketch::read(source, volume::whole(cube_.info.n), cube_.info.n, level, workers_, stop);
+            if (read) {
+                const volume::Histogram histogram = read->histogram();
+                const shear::BrickVolume volume = read->volume(mapping, workers_);
+            }
+        };
+        const Spread times = measure_times(flags_.common.frames, [&] { sketch(*cube_.source, {}); });
+        add("sketch", workers_.threads(), std::nullopt, times);
+        time_stopped("stop: sketch", times.median, sketch);
+    }
+
+    // A frame that takes long: a large one, of high quality, in which every voxel counts.
+    void time_frames(const shear::BrickVolume& bricks) {
+        const view::Lattice lattice{.n = cube_.info.n, .spacing = {1, 1, 1}};
+        const view::Factorisation factorisation =
+            view::factorise(view::camera_on({}, lattice), {.width = 1024, .height = 1024}, lattice,
+                            view::sampling(view::Quality::high));
+        const auto draw = [&](const std::stop_token& stop) {
+            shear::render(bricks, factorisation, view::default_transfer_function(), workers_, nullptr, stop);
+        };
+        const Spread times = measure_times(flags_.common.frames, [&] { draw({}); });
+        add("frame", workers_.threads(), std::nullopt, times);
+        add("stop: frame", workers_.threads(), std::nullopt,
+            time_to_stop(times.median, flags_.common.frames, draw));
+    }
+
+    // By daemons that are started for it.
+    base::Status time_first_look() {
+        options::CubeOptions cube;
+        cube.path = cube_.info.path;
+        cube.bits = flags_.bits;
+        std::vector<double> first, whole;
+        bool sketch = false;
+        for (int i = 0; i < flags_.common.frames; ++i) {
+            const auto seen = deploy::first_look(cube, 2, flags_.common.threads);
+            if (!seen) {
+                return seen.error();
+            }
+            first.push_back(seen->first);
+            whole.push_back(seen->whole);
+            sketch = sketch || seen->sketch;
+        }
+        if (sketch) {
+            add("first picture", workers_.threads(), std::nullopt, spread(std::move(first)));
+        }
+        add("picture of all", workers_.threads(), std::nullopt, spread(std::move(whole)));
+        return {};
     }
 
     // One slab over and over: its values are in memory, as they are when a file has just been read.
@@ -147,19 +248,22 @@ class Loading {
         add("quantise in memory", workers_.threads(), static_cast<double>(values.size()), times);
     }
 
-    void add(const std::string& stage, int threads, double voxels, const Spread& times) {
+    void add(const std::string& stage, int threads, std::optional<double> voxels, const Spread& times) {
+        const auto rate = [&](double per_voxel) {
+            return voxels ? std::optional(*voxels * per_voxel / times.median / 1e6) : std::nullopt;
+        };
         Record record;
         record.text("stage", stage, 20)
             .text("cube", cube_text(cube_.info.n))
             .count("bits", static_cast<std::uint64_t>(flags_.bits))
             .count("threads", static_cast<std::uint64_t>(threads))
             .aside("repeats", flags_.common.frames)
-            .aside("voxels", voxels)
+            .aside("voxels", voxels.value_or(0))
             .number("median_s", times.median, 4)
             .number("min_s", times.least, 4)
             .number("max_s", times.most, 4)
-            .number("MB_per_s", voxels * sizeof(float) / times.median / 1e6, 0)
-            .number("Mvoxels_per_s", voxels / times.median / 1e6, 0);
+            .number("MB_per_s", rate(sizeof(float)), 0)
+            .number("Mvoxels_per_s", rate(1), 0);
         report_.add(record);
     }
 
@@ -206,6 +310,9 @@ base::Status load(const Flags& flags) {
         return done;
     }
     report->note("MB are those of the cube as 32-bit floats.");
+    report->note(
+        "stop: from telling it to stop, at moments spread over its time, until it has. Pictures are those");
+    report->note("of a server and two renderers, from their start on.");
     return report->close();
 }
 

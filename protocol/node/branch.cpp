@@ -9,11 +9,19 @@ namespace shearwater::node {
 
 using wire::NetEffect;
 
+namespace {
+
+auto& of(Branch::Counted counted, auto& each) {
+    return each[static_cast<std::size_t>(counted)];
+}
+
+}  // namespace
+
 void Branch::configure(std::uint64_t epoch, const std::vector<ChildSpec>& specs,
                        std::vector<NetEffect>& effects) {
     std::vector<Child> children;
     for (const ChildSpec& spec : specs) {
-        children.push_back({.spec = spec, .link = {}, .histogram = {}});
+        children.push_back({.spec = spec, .link = {}, .histograms = {}});
     }
     const bool same =
         epoch == epoch_ && std::ranges::equal(children, children_, {}, &Child::spec, &Child::spec);
@@ -221,23 +229,24 @@ void Branch::on_histogram(std::size_t index, const wire::pb::HistogramReport& re
         fault(*children_[index].link, histogram.error(), effects);
         return;
     }
-    children_[index].histogram = *std::move(histogram);
-    histogram_news_ = true;
+    const auto counted = report.sketch() ? Counted::sketches : Counted::voxels;
+    of(counted, children_[index].histograms) = *std::move(histogram);
+    of(counted, histogram_news_) = true;
 }
 
-std::optional<volume::Histogram> Branch::histogram() const {
+std::optional<volume::Histogram> Branch::histogram(Counted counted) const {
     volume::Histogram sum;
     for (const Child& child : children_) {
-        if (!child.histogram) {
+        if (!of(counted, child.histograms)) {
             return std::nullopt;
         }
-        sum.merge(*child.histogram);
+        sum.merge(*of(counted, child.histograms));
     }
     return sum;
 }
 
-bool Branch::take_histogram_news() {
-    return std::exchange(histogram_news_, false);
+bool Branch::take_histogram_news(Counted counted) {
+    return std::exchange(of(counted, histogram_news_), false);
 }
 
 void Branch::tell_children(const wire::Message& message, std::vector<NetEffect>& effects) const {

@@ -2,6 +2,7 @@
 // What every node with children does, the server as much as a compositor: it knows its children's links,
 // passes requests down, gathers their windows frame by frame, their histograms, and routes voxels.
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -54,10 +55,12 @@ class Branch {
     // Frames for which every child has answered or is missing, in the order they became so.
     std::vector<MergeJob> take_complete();
 
+    // What children count: all of their voxels, or, before, those of their sketches.
+    enum class Counted { voxels, sketches };
     // The sum over all children, once each has reported.
-    std::optional<volume::Histogram> histogram() const;
+    std::optional<volume::Histogram> histogram(Counted counted) const;
     // Whether the sum changed since this was last asked.
-    bool take_histogram_news();
+    bool take_histogram_news(Counted counted);
 
     // Passes a message down to every child, or voxels to the child that asked for them.
     void tell_children(const wire::Message& message, std::vector<wire::NetEffect>& effects) const;
@@ -67,7 +70,7 @@ class Branch {
     struct Child {
         ChildSpec spec;
         std::optional<wire::LinkId> link;
-        std::optional<volume::Histogram> histogram;
+        std::array<std::optional<volume::Histogram>, 2> histograms;  // by Counted
     };
     struct Pending {
         view::Factorisation factorisation;
@@ -91,7 +94,7 @@ class Branch {
     std::map<std::uint64_t, Pending> pending_;
     std::vector<MergeJob> complete_;
     std::map<int, wire::LinkId> voxel_routes_;  // by the asking renderer's place
-    bool histogram_news_ = false;
+    std::array<bool, 2> histogram_news_{};      // by Counted
 };
 
 }  // namespace shearwater::node

@@ -41,7 +41,8 @@ struct View {
     view::TransferFunction tf;
     view::Quality quality = view::Quality::normal;
     bool deflate = false;
-    bool level_of_detail = true;
+    std::optional<bool> level_of_detail;  // else as the server has it
+    bool sketch = false;                  // before the cube is loaded, pictures of a sketch are welcome
 };
 pb::SetView to_wire(const View& view);
 Parsed<View> view_from(const pb::SetView& view);

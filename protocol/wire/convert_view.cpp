@@ -271,7 +271,10 @@ pb::SetView to_wire(const View& view) {
     *to.mutable_transfer_function() = to_wire(view.tf);
     to.set_quality(to_wire(view.quality));
     to.set_deflate(view.deflate);
-    to.set_exact(!view.level_of_detail);
+    if (view.level_of_detail) {
+        to.set_exact(!*view.level_of_detail);
+    }
+    to.set_sketch(view.sketch);
     return to;
 }
 
@@ -303,7 +306,8 @@ Parsed<View> view_from(const pb::SetView& view) {
                 .tf = std::move(*tf),
                 .quality = *quality,
                 .deflate = view.deflate(),
-                .level_of_detail = !view.exact()};
+                .level_of_detail = view.has_exact() ? std::optional(!view.exact()) : std::nullopt,
+                .sketch = view.sketch()};
 }
 
 }  // namespace shearwater::wire

@@ -1,8 +1,10 @@
 #include "renderer/jobs/jobs.h"
 
 #include <boost/asio/post.hpp>
+#include <boost/asio/use_future.hpp>
 #include <chrono>
 
+#include "common/base/check.h"
 #include "common/base/memory.h"
 #include "common/cube/open.h"
 #include "common/volume/statistics.h"
@@ -12,7 +14,7 @@
 namespace shearwater::jobs {
 
 Jobs::Jobs(int threads, std::function<void(leaf::JobEvent)> tell)
-    : tell_(std::move(tell)), workers_(threads) {}
+    : tell_(std::move(tell)), loaders_(threads), drawers_(threads) {}
 
 Jobs::~Jobs() {
     {
@@ -21,7 +23,8 @@ Jobs::~Jobs() {
             source.request_stop();
         }
     }
-    thread_.join();
+    loading_.join();
+    drawing_.join();
 }
 
 std::stop_token Jobs::begin(leaf::Job job) {
@@ -47,17 +50,17 @@ void Jobs::perform(leaf::Effect effect) {
             found->second->deliver(std::move(handed->voxels));
         }
     } else if (auto* counting = std::get_if<leaf::Count>(&effect)) {
-        boost::asio::post(thread_, [this, job = std::move(*counting), stop = begin(counting->job)] {
+        boost::asio::post(loading_, [this, job = std::move(*counting), stop = begin(counting->job)] {
             count(job, stop);
             end(job.job);
         });
     } else if (auto* loading = std::get_if<leaf::Load>(&effect)) {
-        boost::asio::post(thread_, [this, job = std::move(*loading), stop = begin(loading->job)] {
+        boost::asio::post(loading_, [this, job = std::move(*loading), stop = begin(loading->job)] {
             load(job, stop);
             end(job.job);
         });
     } else if (auto* drawing = std::get_if<leaf::Draw>(&effect)) {
-        boost::asio::post(thread_, [this, job = std::move(*drawing), stop = begin(drawing->job)] {
+        boost::asio::post(drawing_, [this, job = std::move(*drawing), stop = begin(drawing->job)] {
             draw(job, stop);
             end(job.job);
         });
@@ -84,48 +87,92 @@ base::Result<Jobs::Source> Jobs::open(leaf::Job job, const leaf::Share& share, c
     return Source(source);
 }
 
+void Jobs::put(std::optional<Drawable> cube) {
+    boost::asio::post(drawing_, boost::asio::use_future([&] {
+                          cube_.reset();  // before what takes its place
+                          cube_ = std::move(cube);
+                      }))
+        .wait();
+}
+
+void Jobs::put(SketchToDraw sketch) {
+    boost::asio::post(drawing_, boost::asio::use_future([&] { sketch_ = std::move(sketch); })).wait();
+}
+
+// None where single rows cost as much as all: of voxels from the tree, or compressed in larger tiles.
+void Jobs::sketch(leaf::Job job, const leaf::Share& share, int level, volume::VoxelSource& source,
+                  const std::stop_token& stop) {
+    if (level == 0 || !source.gives_rows()) {
+        return;
+    }
+    // What cannot be read is told by the pass over all voxels.
+    if (auto read = shear::Sketch::read(source, share.box, share.lattice.n, level, loaders_, stop)) {
+        volume::Histogram histogram = read->histogram();
+        put(SketchToDraw{*std::move(read)});
+        tell_(leaf::Sketched{job, std::move(histogram)});
+    }
+}
+
 void Jobs::count(const leaf::Count& job, const std::stop_token& stop) {
     const auto source = open(job.job, job.share, stop);
     if (!source) {
         tell_(leaf::Counted{job.job, source.error()});
         return;
     }
+    sketch(job.job, job.share, job.sketch_level, **source, stop);
     const auto progress = [&](double fraction) { tell_(leaf::Advanced{job.job, fraction}); };
-    tell_(leaf::Counted{job.job, volume::count_values(**source, job.share.box, job.share.lattice.n, workers_,
+    tell_(leaf::Counted{job.job, volume::count_values(**source, job.share.box, job.share.lattice.n, loaders_,
                                                       progress, stop)});
     tell_memory();
 }
 
 void Jobs::load(const leaf::Load& job, const std::stop_token& stop) {
-    volume_.reset();
-    classifier_ = {};
+    put(std::nullopt);
     const auto source = open(job.job, job.share, stop);
     if (!source) {
         tell_(leaf::Loaded{job.job, source.error()});
         return;
     }
+    sketch(job.job, job.share, job.sketch_level, **source, stop);
     const auto progress = [&](double fraction) { tell_(leaf::Advanced{job.job, fraction}); };
     auto bricks = shear::BrickVolume::load(**source, job.share.box, job.share.lattice.n, job.mapping,
-                                           workers_, progress, stop);
+                                           loaders_, progress, stop);
     if (!bricks) {
         tell_(leaf::Loaded{job.job, bricks.error()});
         return;
     }
-    volume_ = *std::move(bricks);
+    put(Drawable{*std::move(bricks)});
     base::release_free_memory();
     tell_memory();
     tell_(leaf::Loaded{job.job, {}});
 }
 
+Jobs::Drawable* Jobs::drawable(const leaf::Draw& draw) {
+    if (!draw.sketch) {
+        sketch_.reset();
+        return cube_ ? &*cube_ : nullptr;
+    }
+    if (!sketch_ || sketch_->sketch.level() != draw.factorisation.level()) {
+        return nullptr;
+    }
+    std::optional<Drawable>& by_limits = sketch_->by_limits;
+    if (!by_limits || by_limits->volume.mapping() != *draw.sketch) {
+        by_limits.emplace(sketch_->sketch.volume(*draw.sketch, drawers_));
+    }
+    return &*by_limits;
+}
+
 void Jobs::draw(const leaf::Draw& job, const std::stop_token& stop) {
-    if (stop.stop_requested() || !volume_) {
+    if (stop.stop_requested()) {
         return;
     }
     const auto begin = std::chrono::steady_clock::now();
+    Drawable* const from = drawable(job);
+    base::check(from != nullptr, "what is to be drawn is there");
     shear::RenderStats stats;
     node::Merged drawn{.frame = job.frame, .windows = {}, .missing = {}, .stats = {}};
-    const auto& classification = classifier_.classify(*volume_, job.tf, workers_);
-    drawn.windows = shear::render(*volume_, classification, job.factorisation, workers_, &stats, stop);
+    const auto& classification = from->classifier.classify(from->volume, job.tf, drawers_);
+    drawn.windows = shear::render(from->volume, classification, job.factorisation, drawers_, &stats, stop);
     if (stop.stop_requested()) {
         return;
     }
@@ -137,12 +184,12 @@ void Jobs::draw(const leaf::Draw& job, const std::stop_token& stop) {
     drawn.stats.set_bricks_rendered(stats.bricks_rendered);
     tell_(leaf::Drawn{job.job, node::to_message(drawn)});
     if (begin - memory_told_ > std::chrono::milliseconds(500)) {
+        memory_told_ = begin;
         tell_memory();
     }
 }
 
 void Jobs::tell_memory() {
-    memory_told_ = std::chrono::steady_clock::now();
     const base::MemoryUse use = base::memory_use();
     tell_(leaf::Memory{use.resident, use.peak});
 }

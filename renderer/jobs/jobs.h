@@ -1,6 +1,6 @@
 #pragma once
-// Carries out a leaf's jobs: counting, loading and drawing, one after the other on a thread of their own
-// that shares its loops with the workers.
+// Carries out a leaf's jobs: counting and loading on one thread, drawing on another, each with workers that
+// share its loops, so that a sketch can be drawn while the rest is loading.
 
 #include <boost/asio/thread_pool.hpp>
 #include <chrono>
@@ -17,12 +17,13 @@
 #include "renderer/leaf/leaf.h"
 #include "renderer/shear/brick_volume.h"
 #include "renderer/shear/classification.h"
+#include "renderer/shear/sketch.h"
 
 namespace shearwater::jobs {
 
 class Jobs {
   public:
-    // `tell` is called from the jobs' thread and must only pass the event on.
+    // `tell` is called from the jobs' threads and must only pass the event on.
     Jobs(int threads, std::function<void(leaf::JobEvent)> tell);
     ~Jobs();  // stops what runs
     Jobs(const Jobs&) = delete;
@@ -38,19 +39,35 @@ class Jobs {
     void count(const leaf::Count& count, const std::stop_token& stop);
     void load(const leaf::Load& load, const std::stop_token& stop);
     void draw(const leaf::Draw& draw, const std::stop_token& stop);
+    void sketch(leaf::Job job, const leaf::Share& share, int level, volume::VoxelSource& source,
+                const std::stop_token& stop);
     base::Result<Source> open(leaf::Job job, const leaf::Share& share, const std::stop_token& stop);
     void tell_memory();
 
+    struct Drawable {
+        shear::BrickVolume volume;
+        shear::Classifier classifier = {};
+    };
+    // A sketch becomes drawable by the limits it is to be drawn by.
+    struct SketchToDraw {
+        shear::Sketch sketch;
+        std::optional<Drawable> by_limits = {};
+    };
+    Drawable* drawable(const leaf::Draw& draw);
+    // What the drawing thread draws from is changed there, once what is being drawn is finished.
+    void put(std::optional<Drawable> cube);
+    void put(SketchToDraw sketch);
+
     std::function<void(leaf::JobEvent)> tell_;
-    base::Workers workers_;
-    // Touched by the jobs' thread only.
-    std::optional<shear::BrickVolume> volume_;
-    shear::Classifier classifier_;  // of the volume
+    base::Workers loaders_, drawers_;
+    // Touched by the drawing thread only.
+    std::optional<Drawable> cube_;
+    std::optional<SketchToDraw> sketch_;
     std::chrono::steady_clock::time_point memory_told_;
     std::mutex mutex_;
     std::map<leaf::Job, std::stop_source> running_;
     std::map<leaf::Job, std::shared_ptr<LinkSource>> link_sources_;
-    boost::asio::thread_pool thread_{1};
+    boost::asio::thread_pool drawing_{1}, loading_{1};
 };
 
 }  // namespace shearwater::jobs

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/volume/levels.h"
 #include "protocol/node/merge.h"
 #include "protocol/wire/convert.h"
 
@@ -54,12 +55,17 @@ Effects Leaf::handle(JobEvent event, wire::Time now) {
                 report(effects);
             }
         }
+    } else if (auto* sketched = std::get_if<Sketched>(&event)) {
+        if (sketched->job == load_job_) {
+            sketched_ = std::move(sketched->histogram);
+            send_histogram(sketched_, true, effects);
+        }
     } else if (auto* counted = std::get_if<Counted>(&event)) {
         if (counted->job == load_job_) {
             load_job_ = 0;
             if (counted->histogram) {
                 histogram_ = *std::move(counted->histogram);
-                send_histogram(effects);
+                send_histogram(histogram_, false, effects);
                 advance(effects);
             } else {
                 fail(counted->histogram.error(), effects);
@@ -97,14 +103,16 @@ void Leaf::on_assigned(Effects& effects) {
     const pb::Assign& assign = *member_.assignment();
     const auto box = wire::box_from(assign.box());
     const auto lattice = wire::lattice_from(assign.cube().lattice());
-    if (!box || !lattice || !volume::whole(lattice->n).contains(*box)) {
+    if (!box || !lattice || !volume::whole(lattice->n).contains(*box) ||
+        std::cmp_greater(assign.sketch_level(), volume::coarsest_level(lattice->n))) {
         fail(base::error(base::Code::invalid_argument, "take a place",
-                         "the server's box or lattice is unusable"),
+                         "the server's box, lattice or level of a sketch is unusable"),
              effects);
         return;
     }
     if (!work_ || !node::same_work(*work_, assign) || phase_ == pb::PHASE_FAILED) {
         stop_loading(effects);
+        give_up_frames(effects);
         share_ = Share{.path = assign.cube().path(),
                        .hdu = static_cast<int>(assign.cube().hdu()),
                        .plane = assign.cube().plane(),
@@ -112,6 +120,8 @@ void Leaf::on_assigned(Effects& effects) {
                        .box = *box,
                        .place = 0};
         histogram_.reset();
+        sketch_level_ = static_cast<int>(assign.sketch_level());
+        sketched_.reset();
         loaded_mapping_.reset();
         error_.clear();
     }
@@ -145,15 +155,18 @@ void Leaf::advance(Effects& effects) {
 
 void Leaf::begin_count(Effects& effects) {
     load_job_ = ++last_job_;
-    effects.jobs.emplace_back(Count{load_job_, *share_});
+    effects.jobs.emplace_back(Count{load_job_, *share_, sketch_to_make()});
     enter(pb::PHASE_COUNTING, effects);
 }
 
 void Leaf::begin_load(Effects& effects) {
     stop_loading(effects);
-    loaded_mapping_.reset();
+    if (loaded_mapping_) {
+        loaded_mapping_.reset();
+        give_up_frames(effects);
+    }
     load_job_ = ++last_job_;
-    effects.jobs.emplace_back(Load{load_job_, *share_, *mapping_});
+    effects.jobs.emplace_back(Load{load_job_, *share_, *mapping_, sketch_to_make()});
     enter(pb::PHASE_LOADING, effects);
 }
 
@@ -166,7 +179,8 @@ void Leaf::stop_loading(Effects& effects) {
 }
 
 void Leaf::on_parent_up(Effects& effects) {
-    send_histogram(effects);
+    send_histogram(sketched_, true, effects);
+    send_histogram(histogram_, false, effects);
     ask_for_voxels(effects);
 }
 
@@ -213,16 +227,48 @@ void Leaf::on_render(wire::LinkId link, const pb::Render& render, Effects& effec
         effects.net.emplace_back(wire::CloseLink{link, fault.reason, fault.text});
         return;
     }
-    if (phase_ != pb::PHASE_READY || factorisation->lattice != share_->lattice) {
-        send_absent(render.frame(), effects);
+    Waiting wanted{render.frame(), *std::move(factorisation), *std::move(tf), {}};
+    if (render.has_sketch()) {
+        const auto limits = wire::mapping_from(render.sketch());
+        if (!limits) {
+            effects.net.emplace_back(wire::CloseLink{link, limits.error().reason, limits.error().text});
+            return;
+        }
+        wanted.sketch = *limits;
+    }
+    if (!can_draw(wanted)) {
+        send_absent(wanted.frame, effects);
         return;
+    }
+    if (!wanted.sketch) {
+        sketched_.reset();
     }
     if (waiting_.size() >= max_waiting) {
         send_absent(waiting_.front().frame, effects);
         waiting_.pop_front();
     }
-    waiting_.push_back({render.frame(), *std::move(factorisation), *std::move(tf)});
+    waiting_.push_back(std::move(wanted));
     draw_next(effects);
+}
+
+bool Leaf::can_draw(const Waiting& wanted) const {
+    if (!share_ || wanted.factorisation.lattice != share_->lattice) {
+        return false;
+    }
+    return wanted.sketch ? sketched_ && wanted.factorisation.level() == sketch_level_
+                         : phase_ == pb::PHASE_READY;
+}
+
+// What they were to be drawn from is about to go.
+void Leaf::give_up_frames(Effects& effects) {
+    for (const Waiting& waiting : std::exchange(waiting_, {})) {
+        send_absent(waiting.frame, effects);
+    }
+    if (draw_job_ != 0) {
+        effects.jobs.emplace_back(Stop{draw_job_});
+        send_absent(drawing_, effects);
+        draw_job_ = 0;
+    }
 }
 
 void Leaf::draw_next(Effects& effects) {
@@ -233,7 +279,8 @@ void Leaf::draw_next(Effects& effects) {
     waiting_.pop_front();
     draw_job_ = ++last_job_;
     drawing_ = next.frame;
-    effects.jobs.emplace_back(Draw{draw_job_, next.frame, std::move(next.factorisation), std::move(next.tf)});
+    effects.jobs.emplace_back(Draw{draw_job_, next.frame, std::move(next.factorisation), std::move(next.tf),
+                                   std::move(next.sketch)});
 }
 
 void Leaf::on_cancel(std::uint64_t frame, Effects& effects) {
@@ -253,10 +300,12 @@ void Leaf::send_absent(std::uint64_t frame, Effects& effects) const {
     member_.tell_parent(node::to_message(nothing), effects.net);
 }
 
-void Leaf::send_histogram(Effects& effects) {
-    if (histogram_ && share_) {
-        pb::HistogramReport report = wire::to_wire(*histogram_);
+void Leaf::send_histogram(const std::optional<volume::Histogram>& histogram, bool of_sketch,
+                          Effects& effects) {
+    if (histogram && share_) {
+        pb::HistogramReport report = wire::to_wire(*histogram);
         report.add_places(static_cast<std::uint32_t>(share_->place));
+        report.set_sketch(of_sketch);
         member_.tell_parent(wire::message(std::move(report)), effects.net);
     }
 }

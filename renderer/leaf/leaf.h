@@ -3,8 +3,9 @@
 //
 //   assigned -> counting -> waiting (for the limits) -> loading -> ready
 //
-// With the limits already known, counting and waiting are left out. Rendering is one job at a time, in
-// the order asked for.
+// With the limits already known, counting and waiting are left out. The first pass over the voxels, whichever
+// it is, begins with a sketch where the server wants one and it can be had: from then on that can be drawn,
+// until the cube is. Rendering is one job at a time, in the order asked for.
 
 #include <cstdint>
 #include <deque>
@@ -40,17 +41,21 @@ using Job = std::uint64_t;
 struct Count {
     Job job;
     Share share;
+    int sketch_level = 0;  // of the sketch to begin with, which is kept; 0: none
 };
 struct Load {
     Job job;
     Share share;
     volume::Mapping mapping;
+    int sketch_level = 0;  // as for Count
 };
+// Goes on beside counting and loading. Drawing the cube lets go of the sketch.
 struct Draw {
     Job job;
     std::uint64_t frame;
     view::Factorisation factorisation;
     view::TransferFunction tf;
+    std::optional<volume::Mapping> sketch;  // draw the sketch, by these limits
 };
 struct Stop {  // whatever of this job still runs
     Job job;
@@ -64,6 +69,10 @@ using Effect = std::variant<Count, Load, Draw, Stop, HandVoxels>;
 struct Advanced {
     Job job;
     double fraction;
+};
+struct Sketched {  // the job goes on
+    Job job;
+    volume::Histogram histogram;  // of the sketch's voxels
 };
 struct Counted {
     Job job;
@@ -86,7 +95,7 @@ struct Memory {
     std::uint64_t resident;
     std::uint64_t peak;
 };
-using JobEvent = std::variant<Advanced, Counted, Loaded, Drawn, VoxelsWanted, Memory>;
+using JobEvent = std::variant<Advanced, Sketched, Counted, Loaded, Drawn, VoxelsWanted, Memory>;
 
 struct Effects {
     std::vector<wire::NetEffect> net;
@@ -112,6 +121,7 @@ class Leaf {
         std::uint64_t frame;
         view::Factorisation factorisation;
         view::TransferFunction tf;
+        std::optional<volume::Mapping> sketch;
     };
 
     void on_assigned(Effects& effects);
@@ -126,9 +136,12 @@ class Leaf {
     void begin_count(Effects& effects);
     void begin_load(Effects& effects);
     void stop_loading(Effects& effects);
+    int sketch_to_make() const { return sketched_ ? 0 : sketch_level_; }
+    bool can_draw(const Waiting& wanted) const;
+    void give_up_frames(Effects& effects);
     void draw_next(Effects& effects);
     void send_absent(std::uint64_t frame, Effects& effects) const;
-    void send_histogram(Effects& effects);
+    void send_histogram(const std::optional<volume::Histogram>& histogram, bool of_sketch, Effects& effects);
     void ask_for_voxels(Effects& effects) const;
     void enter(wire::pb::Phase phase, Effects& effects);
     void fail(const base::Error& error, Effects& effects);
@@ -140,6 +153,8 @@ class Leaf {
     std::optional<volume::Mapping> mapping_;         // wanted
     std::optional<volume::Mapping> loaded_mapping_;  // that the bricks are made with
     std::optional<volume::Histogram> histogram_;
+    int sketch_level_ = 0;                       // wanted
+    std::optional<volume::Histogram> sketched_;  // set: the sketch is there, with these values
     wire::pb::Phase phase_ = wire::pb::PHASE_JOINED;
     double fraction_ = 0;
     std::string error_;

@@ -6,6 +6,7 @@
 #include <new>
 #include <thread>
 
+#include "common/base/check.h"
 #include "common/volume/levels.h"
 #include "common/volume/quantiser.h"
 #include "renderer/shear/coarsen.h"
@@ -184,14 +185,30 @@ bool BrickVolume::build(CodeVolume voxels, base::Workers& workers, const std::st
                 return false;
             }
         }
-        levels_[level].crop(volume::nodes_of(box_, number));
-        if (!levels_[level].survey(workers, stop)) {
+        if (!levels_[level].crop(volume::nodes_of(box_, number), stop) ||
+            !levels_[level].survey(workers, stop)) {
             return false;
         }
     }
     bricks_ = CodeGrid(box_, edge);
-    summarise(levels_.front().micro_bricks(), bricks_);
+    summarise(levels_.front().micro_bricks(), 0, bricks_);
     return true;
+}
+
+BrickVolume BrickVolume::of_level(int level, CodeVolume nodes, const Box& box, const Index3& n,
+                                  const volume::Mapping& mapping, base::Workers& workers) {
+    base::check(nodes.box() == volume::nodes_of(box, level) && nodes.bits() == mapping.bits,
+                "a level has the nodes of its box");
+    BrickVolume volume;
+    volume.box_ = box;
+    volume.n_ = n;
+    volume.mapping_ = mapping;
+    volume.levels_.resize(static_cast<std::size_t>(level));
+    volume.levels_.push_back(std::move(nodes));
+    volume.levels_.back().survey(workers, {});
+    volume.bricks_ = CodeGrid(box, edge);
+    summarise(volume.levels_.back().micro_bricks(), level, volume.bricks_);
+    return volume;
 }
 
 std::size_t BrickVolume::bytes() const {

@@ -27,6 +27,10 @@ class BrickVolume {
                                           const std::stop_token& stop = {},
                                           std::size_t slab_bytes = std::size_t{32} << 20);
 
+    // Only one level of it, from all of its nodes: the finer ones are empty, and cannot be drawn.
+    static BrickVolume of_level(int level, CodeVolume nodes, const volume::Box& box, const volume::Index3& n,
+                                const volume::Mapping& mapping, base::Workers& workers);
+
     const volume::Box& box() const { return box_; }
     const volume::Index3& cube() const { return n_; }  // voxels of the whole cube
     const volume::Mapping& mapping() const { return mapping_; }
@@ -35,7 +39,7 @@ class BrickVolume {
     // Level 0, the voxels, to volume::coarsest_level(cube()): the nodes between which the box's samples lie.
     int levels() const { return static_cast<int>(levels_.size()); }
     const CodeVolume& level(int level) const { return levels_[static_cast<std::size_t>(level)]; }
-    // Of level 0.
+    // Of its voxels.
     const CodeGrid& bricks() const { return bricks_; }
 
   private:

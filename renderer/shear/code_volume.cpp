@@ -52,6 +52,17 @@ CodeGrid::CodeGrid(const Box& box, std::int64_t edge) : edge_(edge) {
     ranges_.resize(static_cast<std::size_t>(count));
 }
 
+void CodeGrid::add(const Index3& first, const Index3& last, const CodeRange& range) {
+    Index3 at;
+    for (at[2] = first[2]; at[2] <= last[2]; ++at[2]) {
+        for (at[1] = first[1]; at[1] <= last[1]; ++at[1]) {
+            for (at[0] = first[0]; at[0] <= last[0]; ++at[0]) {
+                ranges_[index(at)].add(range);
+            }
+        }
+    }
+}
+
 CodeVolume::CodeVolume(const Box& box, int bits)
     : box_(box), bits_(bits), strides_(strides_of(box, bits)), codes_(bytes_of(box, strides_, bits)) {}
 
@@ -68,10 +79,10 @@ std::size_t CodeVolume::offset(const Index3& p) const {
 }
 
 // In place: with strides no longer than before, every row moves towards the front, if at all.
-void CodeVolume::crop(const Box& box) {
+bool CodeVolume::crop(const Box& box, const std::stop_token& stop) {
     base::check(box_.contains(box), "a volume is cropped to what it holds");
     if (box == box_) {
-        return;
+        return true;
     }
     Index3 strides = strides_of(box, bits_);
     for (std::size_t a = 0; a < 3; ++a) {
@@ -80,6 +91,9 @@ void CodeVolume::crop(const Box& box) {
     const auto code_bytes = static_cast<std::size_t>(bits_ / 8);
     auto* const all = static_cast<std::byte*>(codes_.data());
     for (std::int64_t z = 0; z < box.planes(2); ++z) {
+        if (stop.stop_requested()) {
+            return false;
+        }
         for (std::int64_t y = 0; y < box.planes(1); ++y) {
             const std::size_t from = offset({box.lo[0], box.lo[1] + y, box.lo[2] + z}) * code_bytes;
             const std::size_t to = static_cast<std::size_t>(z * strides[2] + y * strides[1]) * code_bytes;
@@ -89,6 +103,7 @@ void CodeVolume::crop(const Box& box) {
     box_ = box;
     strides_ = strides;
     codes_.shrink(bytes_of(box, strides, bits_));
+    return true;
 }
 
 bool CodeVolume::survey(base::Workers& workers, const std::stop_token& stop) {

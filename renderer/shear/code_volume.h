@@ -55,6 +55,8 @@ class CodeGrid {
     }
     std::span<const CodeRange> ranges() const { return ranges_; }
     std::span<CodeRange> ranges() { return ranges_; }
+    // To each cell from one to another, both included.
+    void add(const volume::Index3& first, const volume::Index3& last, const CodeRange& range);
 
   private:
     std::int64_t edge_ = 1;
@@ -88,8 +90,9 @@ class CodeVolume {
     std::ptrdiff_t stride(int axis) const { return strides_[static_cast<std::size_t>(axis)]; }
     std::size_t offset(const volume::Index3& p) const;
 
-    // Lets go of what is not in a box inside its own. To be done before the survey.
-    void crop(const volume::Box& box);
+    // Lets go of what is not in a box inside its own; false if stopped before, and of no use then. To be done
+    // before the survey.
+    bool crop(const volume::Box& box, const std::stop_token& stop);
 
     // Finds out what the micro-bricks hold; false if stopped before.
     bool survey(base::Workers& workers, const std::stop_token& stop);

@@ -145,18 +145,26 @@ template bool survey(const CodesOfBox<std::uint8_t>&, CodeGrid&, std::span<Octan
 template bool survey(const CodesOfBox<std::uint16_t>&, CodeGrid&, std::span<Octants>, base::Workers&,
                      const std::stop_token&);
 
-void summarise(const CodeGrid& fine, CodeGrid& coarse) {
-    const std::int64_t ratio = coarse.edge() / fine.edge();
+void summarise(const CodeGrid& nodes, int level, CodeGrid& voxels) {
+    const std::int64_t edge = nodes.edge() << level;
     volume::Index3 at;
-    for (at[2] = 0; at[2] < fine.counts()[2]; ++at[2]) {
-        for (at[1] = 0; at[1] < fine.counts()[1]; ++at[1]) {
-            for (at[0] = 0; at[0] < fine.counts()[0]; ++at[0]) {
-                volume::Index3 to;
+    for (at[2] = 0; at[2] < nodes.counts()[2]; ++at[2]) {
+        for (at[1] = 0; at[1] < nodes.counts()[1]; ++at[1]) {
+            for (at[0] = 0; at[0] < nodes.counts()[0]; ++at[0]) {
+                const CodeRange& range = nodes.ranges()[nodes.index(at)];
+                volume::Index3 first, last;
                 for (int axis = 0; axis < 3; ++axis) {
                     const auto a = static_cast<std::size_t>(axis);
-                    to[a] = (fine.first(axis) + at[a]) / ratio - coarse.first(axis);
+                    const std::int64_t start = (nodes.first(axis) + at[a]) * edge;
+                    // The outermost nodes may lie outside the box.
+                    const auto cell_of = [&](std::int64_t voxel) {
+                        return std::clamp<std::int64_t>(voxel / voxels.edge() - voxels.first(axis), 0,
+                                                        voxels.counts()[a] - 1);
+                    };
+                    first[a] = cell_of(start);
+                    last[a] = cell_of(start + edge - 1);
                 }
-                coarse.ranges()[coarse.index(to)].add(fine.ranges()[fine.index(at)]);
+                voxels.add(first, last, range);
             }
         }
     }

@@ -28,7 +28,8 @@ extern template bool survey(const CodesOfBox<std::uint8_t>&, CodeGrid&, std::spa
 extern template bool survey(const CodesOfBox<std::uint16_t>&, CodeGrid&, std::span<Octants>, base::Workers&,
                             const std::stop_token&);
 
-// What a coarser grid over the same box makes of a finer one's ranges.
-void summarise(const CodeGrid& fine, CodeGrid& coarse);
+// What a grid over a box makes of the ranges of one over its nodes of a level: each is added to all cells
+// that it reaches.
+void summarise(const CodeGrid& nodes, int level, CodeGrid& voxels);
 
 }  // namespace shearwater::shear

@@ -9,6 +9,7 @@ namespace shearwater::head {
 
 namespace pb = wire::pb;
 using namespace std::chrono_literals;
+using Counted = node::Branch::Counted;
 
 Head::Head(Roster roster, Limits limits) : roster_(std::move(roster)), limits_(limits) {
     std::vector<node::Branch::ChildSpec> children;
@@ -37,7 +38,7 @@ Effects Head::handle(const wire::NetEvent& event, wire::Time now) {
     } else {
         on_tick(now, effects);
     }
-    collect(effects);
+    collect(now, effects);
     return effects;
 }
 
@@ -59,7 +60,7 @@ Effects Head::handle(JobEvent event, wire::Time now) {
         session->second.incomplete = std::get<pb::Frame>(finished.frame.body).missing_size() > 0;
         effects.net.emplace_back(wire::Send{client, std::move(finished.frame)});
         begin_frames(client, session->second, now, effects);
-        collect(effects);
+        collect(now, effects);
     }
     return effects;
 }
@@ -130,6 +131,9 @@ void Head::on_join(wire::LinkId link, const pb::Join& join, Effects& effects) {
 
 void Head::give_orders(tree::Place place, Effects& effects) const {
     if (auto order = roster_.order_for(place, mapping_)) {
+        if (!serving_) {
+            order->assign.set_sketch_level(static_cast<std::uint32_t>(roster_.cube().sketch_level));
+        }
         effects.net.emplace_back(wire::Send{order->link, wire::message(std::move(order->assign))});
     }
 }
@@ -183,7 +187,9 @@ void Head::on_link_down(wire::LinkId link, Effects& effects) {
 
 void Head::on_tick(wire::Time now, Effects& effects) {
     branch_.tick(now);
-    serving_ = serving_ || (mapping_ && roster_.all_settled());
+    if (!serving_ && mapping_ && roster_.all_settled()) {
+        begin_serving(now, effects);
+    }
     for (auto& [link, session] : sessions_) {
         // What was missing has come back: the same view once more, whole.
         const bool again = session.incomplete && !session.wanted && session.in_flight.empty() &&
@@ -210,17 +216,37 @@ void Head::tell_state(Effects& effects) {
     }
 }
 
-void Head::settle_mapping(Effects& effects) {
-    if (!branch_.take_histogram_news() || mapping_) {
+volume::Mapping Head::mapping_from(const volume::Histogram& histogram) const {
+    const volume::Limits limits = volume::percentile_limits(histogram, limits_.percentile);
+    return {.lo = limits.lo, .hi = limits.hi, .stretch = limits_.stretch, .bits = limits_.bits};
+}
+
+void Head::settle_sketch(wire::Time now, Effects& effects) {
+    if (!branch_.take_histogram_news(Counted::sketches) || sketch_ || roster_.cube().sketch_level == 0) {
         return;
     }
-    const auto histogram = branch_.histogram();
+    const auto histogram = branch_.histogram(Counted::sketches);
     if (!histogram) {
         return;
     }
-    const volume::Limits limits = volume::percentile_limits(*histogram, limits_.percentile);
-    mapping_ =
-        volume::Mapping{.lo = limits.lo, .hi = limits.hi, .stretch = limits_.stretch, .bits = limits_.bits};
+    sketch_ = mapping_from(*histogram);
+    for (auto& [link, session] : sessions_) {
+        if (!mapping_) {
+            describe_cube(link, effects);
+        }
+        begin_frames(link, session, now, effects);
+    }
+}
+
+void Head::settle_mapping(Effects& effects) {
+    if (!branch_.take_histogram_news(Counted::voxels) || mapping_) {
+        return;
+    }
+    const auto histogram = branch_.histogram(Counted::voxels);
+    if (!histogram) {
+        return;
+    }
+    mapping_ = mapping_from(*histogram);
     pb::SetMapping set;
     *set.mutable_mapping() = wire::to_wire(*mapping_);
     branch_.tell_children(wire::message(std::move(set)), effects.net);
@@ -230,7 +256,8 @@ void Head::settle_mapping(Effects& effects) {
 }
 
 void Head::describe_cube(wire::LinkId client, Effects& effects) const {
-    if (!mapping_) {
+    const auto& mapping = mapping_ ? mapping_ : sketch_;
+    if (!mapping) {
         return;
     }
     const CubeFacts& cube = roster_.cube();
@@ -239,17 +266,17 @@ void Head::describe_cube(wire::LinkId client, Effects& effects) const {
     description.set_object(cube.object);
     description.set_unit(cube.unit);
     *description.mutable_lattice() = wire::to_wire(cube.lattice);
-    *description.mutable_mapping() = wire::to_wire(*mapping_);
+    *description.mutable_mapping() = wire::to_wire(*mapping);
+    description.set_provisional(!mapping_);
     effects.net.emplace_back(wire::Send{client, wire::message(std::move(description))});
 }
 
-// A view that is wanted in a lower quality than one under way has begun to move, and need not wait for what
-// is no longer looked at. Views of the same quality are left: else none of a drag's would be finished.
-void Head::give_up_refinements(wire::LinkId client, Session& session, Effects& effects) {
+// Of a session's frames those that are still drawn and need not be.
+template <class Which>
+void Head::give_up_frames(Session& session, const Which& which, Effects& effects) {
     std::erase_if(frames_, [&](const auto& entry) {
         const auto& [number, frame] = entry;
-        const bool is_left = frame.client == client && !frame.merged &&
-                             static_cast<int>(frame.view.quality) > static_cast<int>(session.wanted->quality);
+        const bool is_left = !frame.merged && which(frame);
         if (is_left) {
             branch_.cancel(number, effects.net);
             std::erase(session.in_flight, number);
@@ -258,30 +285,77 @@ void Head::give_up_refinements(wire::LinkId client, Session& session, Effects& e
     });
 }
 
+// A view that is wanted in a lower quality than one under way has begun to move, and need not wait for what
+// is no longer looked at. Views of the same quality are left: else none of a drag's would be finished.
+void Head::give_up_refinements(wire::LinkId client, Session& session, Effects& effects) {
+    const auto is_finer = [&](const FrameInWork& frame) {
+        return frame.client == client &&
+               static_cast<int>(frame.view.quality) > static_cast<int>(session.wanted->quality);
+    };
+    give_up_frames(session, is_finer, effects);
+}
+
+// All is loaded. Whoever has looked at the sketch is to see the cube.
+void Head::begin_serving(wire::Time now, Effects& effects) {
+    serving_ = true;
+    for (auto& [link, session] : sessions_) {
+        if (!session.sketched) {
+            continue;
+        }
+        const auto is_sketch = [&](const FrameInWork& frame) { return frame.client == link && frame.sketch; };
+        give_up_frames(session, is_sketch, effects);
+        if (!session.wanted) {
+            session.wanted = session.latest;
+            session.asked = now;
+        }
+    }
+}
+
+std::optional<volume::Mapping> Head::sketch_for(const wire::View& view) const {
+    if (serving_ || !sketch_ || !view.sketch) {
+        return std::nullopt;
+    }
+    return mapping_ ? mapping_ : sketch_;
+}
+
 void Head::begin_frames(wire::LinkId client, Session& session, wire::Time now, Effects& effects) {
-    while (serving_ && session.wanted && session.in_flight.size() < frames_in_flight) {
+    while (session.wanted && session.in_flight.size() < frames_in_flight) {
+        const std::optional<volume::Mapping> sketch = sketch_for(*session.wanted);
+        if (!serving_ && !sketch) {
+            return;
+        }
         session.latest = std::exchange(session.wanted, std::nullopt);
         session.begun = now;
+        session.sketched = sketch.has_value();
         const wire::View& view = *session.latest;
-        const view::Factorisation factorisation =
-            view::factorise(view.camera, view.size, roster_.cube().lattice,
-                            view::sampling(view.quality, view.level_of_detail));
+        view::Factorisation factorisation = view::factorise(
+            view.camera, view.size, roster_.cube().lattice,
+            view::sampling(view.quality, view.level_of_detail.value_or(limits_.level_of_detail)));
         pb::Render render;
+        if (sketch) {
+            factorisation.slice_exponent = roster_.cube().sketch_level;
+            *render.mutable_sketch() = wire::to_wire(*sketch);
+        }
         render.set_frame(++last_frame_);
         *render.mutable_factorisation() = wire::to_wire(factorisation);
         *render.mutable_transfer_function() = wire::to_wire(view.tf);
-        frames_.emplace(last_frame_, FrameInWork{client, view, session.asked});
+        frames_.emplace(
+            last_frame_,
+            FrameInWork{
+                .client = client, .view = view, .asked = session.asked, .sketch = sketch.has_value()});
         session.in_flight.push_back(last_frame_);
         branch_.begin(factorisation, render, now, effects.net);
     }
 }
 
-void Head::collect(Effects& effects) {
+void Head::collect(wire::Time now, Effects& effects) {
+    settle_sketch(now, effects);
     settle_mapping(effects);
     for (node::MergeJob& job : branch_.take_complete()) {
         if (const auto frame = frames_.find(job.frame); frame != frames_.end()) {
             frame->second.merged = true;
-            effects.jobs.emplace_back(Finish{std::move(job), frame->second.view, frame->second.asked});
+            const FrameInWork& work = frame->second;
+            effects.jobs.emplace_back(Finish{std::move(job), work.view, work.asked, work.sketch});
         }
     }
 }

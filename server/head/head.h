@@ -1,6 +1,9 @@
 #pragma once
 // The server as a pure state machine: the root of the tree and its control plane. Daemons join and are
 // given places; clients send views and are sent pictures, at most two of them on their way to each.
+//
+//   all have a sketch -> a client that welcomes them is sent pictures of it -> all are ready -> and now,
+//   unasked, the cube's picture of what it looks at
 
 #include <cstdint>
 #include <map>
@@ -22,6 +25,7 @@ struct Limits {
     double percentile = 99.5;
     volume::Stretch stretch = volume::Stretch::linear;
     int bits = 8;
+    bool level_of_detail = true;  // for clients that do not say
 };
 
 // ---- jobs carried out away from the network's thread ----
@@ -30,7 +34,8 @@ struct Limits {
 struct Finish {
     node::MergeJob merge;
     wire::View view;
-    wire::Time asked;  // when the view arrived
+    wire::Time asked;     // when the view arrived
+    bool sketch = false;  // it is a picture of the sketch
 };
 struct ReadVoxels {
     wire::pb::NeedVoxels need;  // of a box inside the cube
@@ -75,12 +80,14 @@ class Head {
         wire::Time asked{};
         std::vector<std::uint64_t> in_flight;  // numbers of frames begun and not yet shown
         bool incomplete = false;               // the newest picture lacked something
+        bool sketched = false;                 // the newest view begun is drawn from the sketch
         wire::Time begun{};
     };
     struct FrameInWork {
         wire::LinkId client;
         wire::View view;
         wire::Time asked;
+        bool sketch = false;  // it is drawn from the sketch
         bool merged = false;  // it is being finished: only the warp is to come
     };
 
@@ -96,17 +103,25 @@ class Head {
     void give_orders(tree::Place place, Effects& effects) const;
 
     void tell_state(Effects& effects);
+    void settle_sketch(wire::Time now, Effects& effects);
     void settle_mapping(Effects& effects);
+    volume::Mapping mapping_from(const volume::Histogram& histogram) const;
     void describe_cube(wire::LinkId client, Effects& effects) const;
+    template <class Which>
+    void give_up_frames(Session& session, const Which& which, Effects& effects);
     void give_up_refinements(wire::LinkId client, Session& session, Effects& effects);
+    // The mapping to draw the sketch by, where that is what a view is drawn from now.
+    std::optional<volume::Mapping> sketch_for(const wire::View& view) const;
+    void begin_serving(wire::Time now, Effects& effects);
     void begin_frames(wire::LinkId client, Session& session, wire::Time now, Effects& effects);
-    void collect(Effects& effects);
+    void collect(wire::Time now, Effects& effects);
     static void fault(wire::LinkId link, const wire::Fault& fault, Effects& effects);
 
     Roster roster_;
     Limits limits_;
     node::Branch branch_;
     std::optional<volume::Mapping> mapping_;
+    std::optional<volume::Mapping> sketch_;  // set once all have one: by its own limits
     bool serving_ = false;
     std::map<wire::LinkId, wire::LinkUp> joining_;  // daemons' control links that have not yet joined
     std::map<wire::LinkId, Session> sessions_;

@@ -22,6 +22,7 @@ struct CubeFacts {
     int hdu = 0;
     std::int64_t plane = 0;
     view::Lattice lattice;
+    int sketch_level = 0;  // of the sketch that is drawn until all is loaded (volume::sketch_level); 0: none
 };
 
 class Roster {

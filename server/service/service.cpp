@@ -43,6 +43,7 @@ void Service::finish(const head::Finish& job) {
     pb::Frame frame;
     frame.set_number(merged.frame);
     frame.set_revision(job.view.revision);
+    frame.set_sketch(job.sketch);
     node::put(merged.missing, *frame.mutable_missing());
     const wire::Time warp_begin = std::chrono::steady_clock::now();
     const auto picture = image::warp(job.merge.factorisation, merged.windows, job.view.camera, job.view.size,

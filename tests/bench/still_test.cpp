@@ -41,6 +41,7 @@ TEST(Still, TurnsFromPictureToPicture) {
     for (int i = 0; i < times; ++i) {
         const auto view = asked(still.handle(event, now));
         ASSERT_TRUE(view) << i;
+        EXPECT_FALSE(view->sketch) << "it waits for the cube";
         ViewOptions expected = options;
         expected.orbit.azimuth = 10 + 25 * i;
         EXPECT_EQ(view->camera, *expected.camera(lattice));

@@ -181,12 +181,35 @@ TEST_F(BranchTest, HistogramsAreSummedOnceAllHaveReported) {
     volume::Histogram b;
     b.add(2.0F);
     branch_.receive(left_, wire::message(wire::to_wire(a)), effects_);
-    EXPECT_FALSE(branch_.histogram());
+    EXPECT_FALSE(branch_.histogram(Branch::Counted::voxels));
     branch_.receive(right_, wire::message(wire::to_wire(b)), effects_);
     branch_.receive(right_, wire::message(wire::to_wire(b)), effects_);  // said again after a reconnect
-    ASSERT_TRUE(branch_.histogram());
-    EXPECT_EQ(branch_.histogram()->valid(), 2U);
-    EXPECT_EQ(branch_.histogram()->max(), 2.0);
+    ASSERT_TRUE(branch_.histogram(Branch::Counted::voxels));
+    EXPECT_EQ(branch_.histogram(Branch::Counted::voxels)->valid(), 2U);
+    EXPECT_EQ(branch_.histogram(Branch::Counted::voxels)->max(), 2.0);
+}
+
+TEST_F(BranchTest, SketchesAreSummedApartFromVoxels) {
+    using Counted = Branch::Counted;
+    const auto report = [](float value, bool sketch) {
+        volume::Histogram histogram;
+        histogram.add(value);
+        pb::HistogramReport message = wire::to_wire(histogram);
+        message.set_sketch(sketch);
+        return wire::message(message);
+    };
+    branch_.receive(left_, report(1, true), effects_);
+    branch_.receive(left_, report(5, false), effects_);
+    EXPECT_TRUE(branch_.take_histogram_news(Counted::sketches));
+    EXPECT_FALSE(branch_.take_histogram_news(Counted::sketches));
+    branch_.receive(right_, report(2, true), effects_);
+    EXPECT_FALSE(branch_.histogram(Counted::voxels));
+    ASSERT_TRUE(branch_.histogram(Counted::sketches));
+    EXPECT_EQ(branch_.histogram(Counted::sketches)->max(), 2);
+    branch_.receive(right_, report(7, false), effects_);
+    EXPECT_EQ(branch_.histogram(Counted::voxels)->max(), 7);
+    EXPECT_EQ(branch_.histogram(Counted::sketches)->valid(), 2U);
+    EXPECT_TRUE(branch_.take_histogram_news(Counted::voxels));
 }
 
 TEST_F(BranchTest, VoxelsFindTheirWayBack) {

@@ -96,6 +96,8 @@ TEST_F(Commands, MistakesGetOneLine) {
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --range 2 1", "range");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --spacing 1 0 1", "spacing");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --bits 12", "bits");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --lod some", "lod");
+    expect_mistake("serve " + cube_ + " --lod some", "lod");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --tree 2", "tree");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --tree 65,2", "branching");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --tree 40,2", "too few");

@@ -11,6 +11,8 @@ namespace {
 
 class Waves final : public volume::VoxelSource {
   public:
+    explicit Waves(bool concurrent = false) : concurrent_(concurrent) {}
+    bool concurrent() const override { return concurrent_; }
     base::Status read(const volume::Box& box, std::span<float> out) override {
         std::size_t i = 0;
         for (std::int64_t z = box.lo[2]; z <= box.hi[2]; ++z) {
@@ -22,6 +24,9 @@ class Waves final : public volume::VoxelSource {
         }
         return {};
     }
+
+  private:
+    bool concurrent_;
 };
 
 wire::View view_of(const volume::Index3& n) {
@@ -32,8 +37,8 @@ wire::View view_of(const volume::Index3& n) {
     return view;
 }
 
-image::Image<image::Rgba8> picture_of(const support::Simulation& simulation, const wire::View& view) {
-    auto picture = wire::picture_from(*simulation.newest_frame(), view.size);
+image::Image<image::Rgba8> picture_of(const wire::Message& frame, const wire::View& view) {
+    auto picture = wire::picture_from(frame, view.size);
     EXPECT_TRUE(picture);
     return *std::move(picture);
 }
@@ -51,7 +56,7 @@ constexpr volume::Index3 cube{11, 9, 13};
 // Whatever the order in which daemons join and messages arrive, the tree becomes ready, its limits are the
 // cube's, and the picture is the same.
 TEST(Simulation, EveryOrderOfJoiningEndsInTheSamePicture) {
-    Waves source;
+    Waves source(true);
     std::optional<image::Image<image::Rgba8>> first;
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
         support::Simulation simulation(seed, *tree::full_tree(2, 3), cube, source);
@@ -65,7 +70,7 @@ TEST(Simulation, EveryOrderOfJoiningEndsInTheSamePicture) {
         }
         ASSERT_TRUE(simulation.run_until([&] { return simulation.answered_whole(revision); }))
             << "seed " << seed;
-        const auto picture = picture_of(simulation, view);
+        const auto picture = picture_of(*simulation.newest_frame(), view);
         EXPECT_TRUE(support::lit(picture));
         if (!first) {
             first = picture.clone();
@@ -74,18 +79,77 @@ TEST(Simulation, EveryOrderOfJoiningEndsInTheSamePicture) {
     }
 }
 
+constexpr volume::Index3 large_cube{70, 9, 11};  // with a level of its own for a sketch
+
+// However things fall, whoever welcomes sketches is sent the cube's picture in the end, unasked, and the
+// picture of a sketch, where one was sent, is the same for every tree. Whoever does not is never sent one.
+TEST(Simulation, ASketchComesFirstAndTheCubeByItself) {
+    Waves source(true);
+    std::optional<image::Image<image::Rgba8>> sketch, whole;
+    int sketches = 0;
+    for (std::uint64_t seed = 0; seed < 24; ++seed) {
+        const bool welcome = seed % 4 != 0;
+        support::Simulation simulation(seed, *tree::full_tree(2, 2 + static_cast<int>(seed % 3)), large_cube,
+                                       source, 1);
+        wire::View view = view_of(large_cube);
+        view.sketch = welcome;
+        const std::uint64_t revision = simulation.ask(view);
+        for (const tree::Place place : all_daemons(simulation)) {
+            simulation.start_daemon(place);
+        }
+        ASSERT_TRUE(simulation.run_until([&] { return simulation.answered_whole(revision); }))
+            << "seed " << seed;
+        const auto picture = picture_of(*simulation.newest_frame(), view);
+        whole = whole ? std::move(whole) : picture.clone();
+        EXPECT_LE(support::difference(*whole, picture).largest, 1) << "seed " << seed;
+        const int frames = simulation.frames();
+        simulation.run_some(2000);
+        EXPECT_EQ(simulation.frames(), frames) << "nothing more to come";
+        EXPECT_FALSE(simulation.newest_sketch() && !welcome);
+        const bool is_whole = simulation.newest_sketch() &&
+                              std::get<wire::pb::Frame>(simulation.newest_sketch()->body).missing_size() == 0;
+        if (is_whole) {
+            ++sketches;
+            const auto first_look = picture_of(*simulation.newest_sketch(), view);
+            EXPECT_TRUE(support::lit(first_look));
+            sketch = sketch ? std::move(sketch) : first_look.clone();
+            EXPECT_LE(support::difference(*sketch, first_look).largest, 1) << "seed " << seed;
+        }
+    }
+    EXPECT_GT(sketches, 6);
+}
+
+// Voxels that can only be had in slabs: no sketch, and no harm.
+TEST(Simulation, WhereNoSketchCanBeHadTheCubeIsWaitedFor) {
+    Waves source(false);
+    support::Simulation simulation(1, *tree::full_tree(2, 3), large_cube, source, 1);
+    wire::View view = view_of(large_cube);
+    view.sketch = true;
+    const std::uint64_t revision = simulation.ask(view);
+    for (const tree::Place place : all_daemons(simulation)) {
+        simulation.start_daemon(place);
+    }
+    ASSERT_TRUE(simulation.run_until([&] { return simulation.answered_whole(revision); }));
+    EXPECT_FALSE(simulation.newest_sketch());
+    EXPECT_EQ(simulation.frames(), 1);
+}
+
 // Daemons die and come back at any moment, several at once, while a client asks: every request is answered,
 // and when all are back the picture is whole and right.
 TEST(Simulation, AnyStormOfDeathsEndsWhole) {
-    Waves source;
-    const wire::View view = view_of(cube);
+    Waves source(true);
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
-        support::Simulation simulation(seed, *tree::full_tree(2, seed % 2 == 0 ? 3 : 4), cube, source);
+        const bool sketches = seed % 3 == 0;
+        const volume::Index3& n = sketches ? large_cube : cube;
+        support::Simulation simulation(seed, *tree::full_tree(2, seed % 2 == 0 ? 3 : 4), n, source,
+                                       sketches ? 1 : 0);
+        wire::View view = view_of(n);
+        view.sketch = sketches;
         const std::vector<tree::Place> places = all_daemons(simulation);
         std::ranges::for_each(places, [&](tree::Place place) { simulation.start_daemon(place); });
         const std::uint64_t calm = simulation.ask(view);
         ASSERT_TRUE(simulation.run_until([&] { return simulation.answered_whole(calm); })) << "seed " << seed;
-        const auto expected = picture_of(simulation, view);
+        const auto expected = picture_of(*simulation.newest_frame(), view);
 
         auto& random = simulation.fabric().random();
         for (int blow = 0; blow < 12; ++blow) {
@@ -109,7 +173,8 @@ TEST(Simulation, AnyStormOfDeathsEndsWhole) {
         }
         const std::uint64_t last = simulation.ask(view);
         ASSERT_TRUE(simulation.run_until([&] { return simulation.answered_whole(last); })) << "seed " << seed;
-        EXPECT_EQ(support::difference(expected, picture_of(simulation, view)).largest, 0) << "seed " << seed;
+        EXPECT_EQ(support::difference(expected, picture_of(*simulation.newest_frame(), view)).largest, 0)
+            << "seed " << seed;
         EXPECT_TRUE(simulation.run_until([&] { return simulation.head().roster().all_ready(); }));
     }
 }

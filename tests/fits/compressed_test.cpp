@@ -84,6 +84,26 @@ TEST_F(Compressed, HcompressGivesThePlainValues) {
     expect_same(read_whole(path_), std::vector<float>(image.raw.begin(), image.raw.end()));
 }
 
+// A row can be had alone where tiles are rows.
+TEST_F(Compressed, RowsAreGivenByRowsOfTiles) {
+    const auto gives_rows = [&](const FitsImage& image) {
+        support::write_fits(path_, {image});
+        return Cube::open(path_).value().gives_rows();
+    };
+    FitsImage image = noisy(16, RICE_1);
+    EXPECT_TRUE(gives_rows(image)) << "cfitsio's own tiles";
+    image.tile = {5, 1, 1};
+    EXPECT_TRUE(gives_rows(image));
+    for (const std::vector<long>& tile :
+         {std::vector<long>{17, 2, 1}, {17, 1, 3}, {17, 13, 11}, {1, 13, 1}}) {
+        image.tile = tile;
+        EXPECT_FALSE(gives_rows(image));
+    }
+    image.tile = {};
+    image.compression = 0;
+    EXPECT_TRUE(gives_rows(image));
+}
+
 TEST_F(Compressed, BlankAndScaleStay) {
     FitsImage image = noisy(16, RICE_1);
     image.blank = 7;

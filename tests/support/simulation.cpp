@@ -4,6 +4,7 @@
 #include "common/volume/statistics.h"
 #include "protocol/wire/picture.h"
 #include "renderer/shear/render.h"
+#include "renderer/shear/sketch.h"
 
 namespace shearwater::support {
 
@@ -145,17 +146,31 @@ struct Simulation::Renderer final : Simulation::Daemon {
     void carry_out(const leaf::Effect& effect) {
         if (const auto* count = std::get_if<leaf::Count>(&effect)) {
             const auto& share = count->share;
+            make_sketch(count->job, share, count->sketch_level);
             tell(leaf::Counted{count->job,
                                volume::count_values(sim.source_, share.box, share.lattice.n, sim.workers_)});
         } else if (const auto* load = std::get_if<leaf::Load>(&effect)) {
+            make_sketch(load->job, load->share, load->sketch_level);
             auto loaded = shear::BrickVolume::load(sim.source_, load->share.box, load->share.lattice.n,
                                                    load->mapping, sim.workers_);
             bricks = *std::move(loaded);
             tell(leaf::Loaded{load->job, {}});
-        } else if (const auto* draw = std::get_if<leaf::Draw>(&effect); draw != nullptr && bricks) {
+        } else if (const auto* draw = std::get_if<leaf::Draw>(&effect);
+                   draw != nullptr && (draw->sketch ? sketch.has_value() : bricks.has_value())) {
             node::Merged drawn{.frame = draw->frame, .windows = {}, .missing = {}, .stats = {}};
-            drawn.windows = shear::render(*bricks, draw->factorisation, draw->tf, sim.workers_);
+            const auto render = [&](const shear::BrickVolume& volume) {
+                return shear::render(volume, draw->factorisation, draw->tf, sim.workers_);
+            };
+            drawn.windows =
+                draw->sketch ? render(sketch->volume(*draw->sketch, sim.workers_)) : render(*bricks);
             tell(leaf::Drawn{draw->job, node::to_message(drawn)});
+        }
+    }
+
+    void make_sketch(leaf::Job job, const leaf::Share& share, int level) {
+        if (level > 0 && sim.source_.concurrent()) {
+            sketch = *shear::Sketch::read(sim.source_, share.box, share.lattice.n, level, sim.workers_);
+            tell(leaf::Sketched{job, sketch->histogram()});
         }
     }
 
@@ -163,6 +178,7 @@ struct Simulation::Renderer final : Simulation::Daemon {
     int number;
     leaf::Leaf leaf;
     std::optional<shear::BrickVolume> bricks;
+    std::optional<shear::Sketch> sketch;
 };
 
 struct Simulation::Compositor final : Simulation::Daemon {
@@ -192,13 +208,14 @@ struct Simulation::Compositor final : Simulation::Daemon {
 
 namespace {
 
-head::Roster roster_for(const tree::Topology& topology, const volume::Index3& n) {
+head::Roster roster_for(const tree::Topology& topology, const volume::Index3& n, int sketch_level) {
     auto plan = tree::make_plan(topology, n);
     base::check(plan.has_value(), "the simulated tree fits its cube");
     head::CubeFacts cube;
     cube.name = "simulated";
     cube.path = "/simulated";
     cube.lattice = {.n = n, .spacing = {1, 1, 1}};
+    cube.sketch_level = sketch_level;
     constexpr std::uint64_t epoch = 11;
     return {*std::move(plan), std::move(cube), epoch, 8};
 }
@@ -206,8 +223,10 @@ head::Roster roster_for(const tree::Topology& topology, const volume::Index3& n)
 }  // namespace
 
 Simulation::Simulation(std::uint64_t seed, const tree::Topology& topology, const volume::Index3& n,
-                       volume::VoxelSource& source)
-    : fabric_(seed), source_(source), head_(roster_for(topology, n), {.range = {}, .percentile = 99.5}) {
+                       volume::VoxelSource& source, int sketch_level)
+    : fabric_(seed),
+      source_(source),
+      head_(roster_for(topology, n, sketch_level), {.range = {}, .percentile = 99.5}) {
     fabric_.add(server_node, [this](const wire::NetEvent& e) { perform(head_.handle(e, fabric_.now())); });
     fabric_.add(client_node, [this](const wire::NetEvent& e) { on_client_event(e); });
     fabric_.perform(client_node, {wire::Dial{wire::LinkId{1}, {"sim", server_node}, pb::ROLE_CLIENT}});
@@ -248,6 +267,7 @@ void Simulation::perform(head::Effects effects) {
             pb::Frame frame;
             frame.set_number(merged.frame);
             frame.set_revision(finish->view.revision);
+            frame.set_sketch(finish->sketch);
             for (const node::Missing& missing : merged.missing) {
                 frame.add_missing()->set_place(static_cast<std::uint32_t>(missing.place));
             }
@@ -264,6 +284,10 @@ void Simulation::on_client_event(const wire::NetEvent& event) {
     const auto* received = std::get_if<wire::Received>(&event);
     if (received != nullptr && std::holds_alternative<pb::Frame>(received->message.body)) {
         frame_ = received->message;
+        ++frames_;
+        if (std::get<pb::Frame>(frame_->body).sketch()) {
+            sketch_ = frame_;
+        }
         pb::FrameShown shown;
         shown.set_number(std::get<pb::Frame>(frame_->body).number());
         fabric_.perform(client_node, {wire::Send{received->link, wire::message(shown)}});
@@ -282,7 +306,8 @@ bool Simulation::answered(std::uint64_t revision) const {
 }
 
 bool Simulation::answered_whole(std::uint64_t revision) const {
-    return answered(revision) && std::get<pb::Frame>(frame_->body).missing_size() == 0;
+    return answered(revision) && std::get<pb::Frame>(frame_->body).missing_size() == 0 &&
+           !std::get<pb::Frame>(frame_->body).sketch();
 }
 
 void Simulation::run_some(int steps) {

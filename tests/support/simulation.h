@@ -66,8 +66,9 @@ class Fabric {
 // A server, its compositors and renderers, and one client that asks for one view over and over.
 class Simulation {
   public:
+    // A sketch of a level above 0 is made where the source is concurrent.
     Simulation(std::uint64_t seed, const tree::Topology& topology, const volume::Index3& n,
-               volume::VoxelSource& source);
+               volume::VoxelSource& source, int sketch_level = 0);
     ~Simulation();
 
     void start_daemon(tree::Place place);
@@ -81,6 +82,9 @@ class Simulation {
 
     std::uint64_t ask(const wire::View& view);
     const std::optional<wire::Message>& newest_frame() const { return frame_; }
+    // The newest of a sketch, and how many of any kind have come.
+    const std::optional<wire::Message>& newest_sketch() const { return sketch_; }
+    int frames() const { return frames_; }
     bool answered(std::uint64_t revision) const;
     bool answered_whole(std::uint64_t revision) const;
 
@@ -105,7 +109,8 @@ class Simulation {
     head::Head head_;
     std::map<tree::Place, std::unique_ptr<Daemon>> daemons_;
     std::uint64_t revision_ = 0;
-    std::optional<wire::Message> frame_;
+    std::optional<wire::Message> frame_, sketch_;
+    int frames_ = 0;
 };
 
 }  // namespace shearwater::support

@@ -58,7 +58,7 @@ std::optional<Shot> TreeClient::next(std::uint64_t revision) {
 
 std::optional<Shot> TreeClient::wait_whole(std::uint64_t revision) {
     while (auto shot = next(revision)) {
-        if (shot->missing.empty()) {
+        if (shot->missing.empty() && !shot->sketch) {
             return shot;
         }
     }
@@ -91,7 +91,11 @@ void TreeClient::on_event(const wire::NetEvent& event) {
 void TreeClient::on_frame(const wire::Message& message) {
     const auto& frame = std::get<pb::Frame>(message.body);
     ++frames_received_;
-    Shot shot{.revision = frame.revision(), .image = {}, .missing = {}, .stats = frame.stats()};
+    Shot shot{.revision = frame.revision(),
+              .image = {},
+              .missing = {},
+              .sketch = frame.sketch(),
+              .stats = frame.stats()};
     for (const pb::Missing& missing : frame.missing()) {
         if (const auto box = wire::box_from(missing.box())) {
             shot.missing.push_back(*box);

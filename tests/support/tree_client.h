@@ -21,6 +21,7 @@ struct Shot {
     std::uint64_t revision = 0;
     image::Image<image::Rgba8> image;
     std::vector<volume::Box> missing;
+    bool sketch = false;
     wire::pb::FrameStats stats;
 };
 
@@ -44,7 +45,7 @@ class TreeClient {
     std::uint64_t ask(wire::View view);
     // The next frame of at least that revision, whole or not.
     std::optional<Shot> next(std::uint64_t revision);
-    // Asks, and waits for the whole picture.
+    // Asks, and waits for the whole picture, of the cube.
     std::optional<Shot> draw(const wire::View& view);
     std::optional<Shot> wait_whole(std::uint64_t revision);
 

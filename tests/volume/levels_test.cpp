@@ -19,6 +19,19 @@ TEST(Levels, EndWhereMoreThan32NodesAreLeft) {
     }
 }
 
+TEST(Levels, ForASketchHaveAsManyNodesAs128OnASide) {
+    EXPECT_EQ(sketch_level({128, 128, 128}), 0);
+    EXPECT_EQ(sketch_level({130, 130, 130}), 1);
+    EXPECT_EQ(sketch_level({512, 512, 512}), 2);
+    EXPECT_EQ(sketch_level({645, 645, 645}), 3);
+    EXPECT_EQ(sketch_level({1024, 1024, 1024}), 3);
+    EXPECT_EQ(sketch_level({2048, 2048, 2048}), 4);
+    EXPECT_EQ(sketch_level({8193, 8193, 8193}), 5) << "the coarsest";
+    EXPECT_EQ(sketch_level({20000, 20000, 20000}), 0) << "more than are read soon";
+    EXPECT_EQ(sketch_level({1 << 20, 2, 2}), 0);
+    EXPECT_EQ(sketch_level({2, 2, 2}), 0);
+}
+
 TEST(Levels, EndAtOrBeyondTheLastVoxel) {
     EXPECT_EQ(last_nodes({65, 66, 2}, 1), (Index3{32, 33, 1}));
     EXPECT_EQ(last_nodes({65, 66, 2}, 5), (Index3{2, 3, 1}));

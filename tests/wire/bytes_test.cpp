@@ -118,18 +118,38 @@ TEST(Bytes, OfEveryMessageAreThoseOfVersionOne) {
     }
 }
 
-// What a request for every voxel adds to that in the examples: the body's end, two bytes longer.
-TEST(Bytes, OfAnExactView) {
-    View view = view_request();
-    const std::string with_levels = hex(encode_head(message(to_wire(view))));
-    view.level_of_detail = false;
-    const std::string exact = hex(encode_head(message(to_wire(view))));
+std::string body_of(const Message& message) {
     constexpr std::size_t header_digits = 2 * header_bytes;
-    EXPECT_EQ(exact.substr(header_digits), with_levels.substr(header_digits) + "4001");
+    return hex(encode_head(message)).substr(header_digits);
+}
+
+// What a wish about levels of detail adds to a request without one: the body's end, two bytes longer.
+TEST(Bytes, OfAViewWithOrWithoutLevels) {
+    View view = view_request();
+    const std::string as_the_server_has_it = body_of(message(to_wire(view)));
+    view.level_of_detail = false;
+    EXPECT_EQ(body_of(message(to_wire(view))), as_the_server_has_it + "4001");
+    view.level_of_detail = true;
+    EXPECT_EQ(body_of(message(to_wire(view))), as_the_server_has_it + "4000");
+}
+
+// What sketches add, at the end of bodies whose beginnings are as before: whoever knows none passes over it.
+TEST(Bytes, OfWhatHasToDoWithSketches) {
+    const std::string added[] = {"5003", "3801", "221609000000000000f8bf11000000000000044018032010",
+                                 "3001", "4801", "4001"};
+    const std::vector<Message> sketches = sketch_examples();
+    ASSERT_EQ(sketches.size(), std::size(added));
+    for (std::size_t i = 0; i < sketches.size(); ++i) {
+        for (const Message& plain : examples()) {
+            if (plain.body.index() == sketches[i].body.index()) {
+                EXPECT_EQ(body_of(sketches[i]), body_of(plain) + added[i]) << name(plain.body);
+            }
+        }
+    }
 }
 
 TEST(Bytes, OfEveryMessageAreReadBack) {
-    for (const Message& example : examples()) {
+    for (const Message& example : all_examples()) {
         const std::vector<std::byte> head = encode_head(example);
         const Header header = parse_header(std::span(head).first<header_bytes>()).value();
         EXPECT_EQ(header.payload, example.payload_size());

@@ -40,7 +40,9 @@ TEST(ViewConversion, ThereAndBack) {
             EXPECT_EQ(back.quality, view.quality);
             EXPECT_EQ(back.deflate, view.deflate);
             EXPECT_EQ(back.level_of_detail, view.level_of_detail);
-            view.level_of_detail = !view.level_of_detail;
+            EXPECT_EQ(back.sketch, view.sketch);
+            view.level_of_detail = !view.level_of_detail.value_or(false);
+            view.sketch = !view.sketch;
         }
     }
 }

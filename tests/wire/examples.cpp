@@ -253,6 +253,31 @@ std::vector<Message> examples() {
             message(frame_shown())};
 }
 
+std::vector<Message> sketch_examples() {
+    pb::Assign first = assign();
+    first.set_sketch_level(3);
+    pb::HistogramReport report = histogram_report();
+    report.set_sketch(true);
+    pb::Render drawn = render();
+    fill(*drawn.mutable_sketch(), to_wire(mapping));
+    pb::CubeDescription described = cube_description();
+    described.set_provisional(true);
+    View view = view_request();
+    view.sketch = true;
+    pb::Frame shown = frame();
+    shown.set_sketch(true);
+    return {message(first),     message(report),        message(drawn),
+            message(described), message(to_wire(view)), message(shown, bytes({9, 8, 7}))};
+}
+
+std::vector<Message> all_examples() {
+    std::vector<Message> all = examples();
+    for (Message& message : sketch_examples()) {
+        all.push_back(std::move(message));
+    }
+    return all;
+}
+
 view::TransferFunction transfer_function() {
     view::TransferFunction tf;
     tf.opacity_pins = {view::Ramp{0.25, 0, 1, 0.5}, view::Hat{0.5, 0.125, 0.25, 0.75}, view::Flat{0.0625},

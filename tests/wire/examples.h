@@ -12,6 +12,9 @@ namespace shearwater::wire::test {
 
 // One of each of Body's alternatives, in its order, with every field set.
 std::vector<Message> examples();
+// Of those that have to do with sketches another of each, with what has been added for them.
+std::vector<Message> sketch_examples();
+std::vector<Message> all_examples();  // both
 
 view::TransferFunction transfer_function();
 view::Factorisation factorisation();  // of two faces, 5 x 4 and 3 x 2 pixels

@@ -50,6 +50,9 @@ void convert(const Body& body) {
         if (const auto from = factorisation_from(render->factorisation())) {
             EXPECT_TRUE(view::validate(*from));
         }
+        if (const auto from = mapping_from(render->sketch())) {
+            EXPECT_LE(from->lo, from->hi);
+        }
         if (const auto from = transfer_function_from(render->transfer_function())) {
             EXPECT_TRUE(view::validate(*from));
         }
@@ -91,7 +94,7 @@ TEST(Fuzz, HeadersOfRandomBytes) {
 
 TEST(Fuzz, BodiesThatWereGood) {
     Random random(2);
-    const std::vector<Message> all = examples();
+    const std::vector<Message> all = all_examples();
     std::size_t taken = 0;
     for (int i = 0; i < 60000; ++i) {
         const Message& example = all[below(random, all.size())];

@@ -123,7 +123,7 @@ TEST(Header, OfAnotherMagicVersionOrType) {
 }
 
 TEST(Body, CutAtEveryByteIsMalformed) {
-    for (const Message& example : examples()) {
+    for (const Message& example : all_examples()) {
         const std::vector<std::byte> head = encode_head(example);
         const Header header = parse_header(std::span(head).first<header_bytes>()).value();
         const std::span body = std::span(head).subspan(header_bytes);
@@ -138,7 +138,7 @@ TEST(Body, CutAtEveryByteIsMalformed) {
 
 // What is left may be a message of fewer fields, or none; it is never the whole one.
 TEST(Body, CutAtEveryByteWithALengthThatFitsIsAnotherOrMalformed) {
-    for (const Message& example : examples()) {
+    for (const Message& example : all_examples()) {
         const std::vector<std::byte> head = encode_head(example);
         Header header = parse_header(std::span(head).first<header_bytes>()).value();
         const std::span body = std::span(head).subspan(header_bytes);
