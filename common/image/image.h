@@ -58,8 +58,10 @@ class Image {
     }
     Pixel& at(int x, int y) { return row(y)[static_cast<std::size_t>(x)]; }
     const Pixel& at(int x, int y) const { return row(y)[static_cast<std::size_t>(x)]; }
-    std::span<Pixel> pixels() { return pixels_; }
-    std::span<const Pixel> pixels() const { return pixels_; }
+    std::span<Pixel> pixels() & { return pixels_; }
+    std::span<const Pixel> pixels() const& { return pixels_; }
+    void pixels() && = delete;  // they would be gone before anyone looked at them
+    void pixels() const&& = delete;
     Image clone() const {
         Image copy(width_, height_);
         copy.pixels_ = pixels_;

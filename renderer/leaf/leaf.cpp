@@ -77,9 +77,11 @@ Effects Leaf::handle(JobEvent event, wire::Time now) {
         }
     } else if (auto* drawn = std::get_if<Drawn>(&event)) {
         if (drawn->job == draw_job_) {
-            draw_job_ = 0;
             member_.tell_parent(std::move(drawn->windows), effects.net);
-            draw_next(effects);
+            if (drawn->last) {
+                draw_job_ = 0;
+                draw_next(effects);
+            }
         }
     } else if (auto* wanted = std::get_if<VoxelsWanted>(&event)) {
         if (wanted->job == load_job_) {
@@ -214,11 +216,11 @@ void Leaf::on_render(wire::LinkId link, const pb::Render& render, Effects& effec
         return;
     }
     if (phase_ != pb::PHASE_READY || factorisation->lattice != share_->lattice) {
-        send_absent(render.frame(), effects);
+        send_absent(render.frame(), *factorisation, effects);
         return;
     }
     if (waiting_.size() >= max_waiting) {
-        send_absent(waiting_.front().frame, effects);
+        send_absent(waiting_.front().frame, waiting_.front().factorisation, effects);
         waiting_.pop_front();
     }
     waiting_.push_back({render.frame(), *std::move(factorisation), *std::move(tf)});
@@ -245,12 +247,15 @@ void Leaf::on_cancel(std::uint64_t frame, Effects& effects) {
     }
 }
 
-void Leaf::send_absent(std::uint64_t frame, Effects& effects) const {
-    node::Merged nothing{.frame = frame, .windows = {}, .missing = {}, .stats = {}};
+void Leaf::send_absent(std::uint64_t frame, const view::Factorisation& factorisation,
+                       Effects& effects) const {
+    wire::Message nothing = wire::windows_message(frame, view::bands_of(factorisation).size(), {});
+    node::Account account;
     if (share_) {
-        nothing.missing.push_back({share_->place, share_->box});
+        account.missing.push_back({share_->place, share_->box});
     }
-    member_.tell_parent(node::to_message(nothing), effects.net);
+    node::put(account, std::get<pb::Windows>(nothing.body));
+    member_.tell_parent(std::move(nothing), effects.net);
 }
 
 void Leaf::send_histogram(Effects& effects) {

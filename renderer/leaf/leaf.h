@@ -73,9 +73,10 @@ struct Loaded {
     Job job;
     base::Status status;
 };
-struct Drawn {
+struct Drawn {  // some of the frame's bands
     Job job;
     wire::Message windows;  // pb::Windows
+    bool last;              // the frame is done
 };
 // A job that cannot see the cube's file asks for a part of it over the tree, one at a time.
 struct VoxelsWanted {
@@ -127,7 +128,7 @@ class Leaf {
     void begin_load(Effects& effects);
     void stop_loading(Effects& effects);
     void draw_next(Effects& effects);
-    void send_absent(std::uint64_t frame, Effects& effects) const;
+    void send_absent(std::uint64_t frame, const view::Factorisation& factorisation, Effects& effects) const;
     void send_histogram(Effects& effects);
     void ask_for_voxels(Effects& effects) const;
     void enter(wire::pb::Phase phase, Effects& effects);

@@ -174,7 +174,7 @@ void Head::on_link_down(wire::LinkId link, Effects& effects) {
         std::erase_if(frames_, [&](const auto& entry) {
             const bool gone = entry.second.client == link;
             if (gone) {
-                branch_.cancel(entry.first, effects.net);
+                give_up(entry.first, entry.second, effects);
             }
             return gone;
         });
@@ -251,11 +251,18 @@ void Head::give_up_refinements(wire::LinkId client, Session& session, Effects& e
         const bool is_left = frame.client == client && !frame.merged &&
                              static_cast<int>(frame.view.quality) > static_cast<int>(session.wanted->quality);
         if (is_left) {
-            branch_.cancel(number, effects.net);
+            give_up(number, frame, effects);
             std::erase(session.in_flight, number);
         }
         return is_left;
     });
+}
+
+void Head::give_up(std::uint64_t number, const FrameInWork& frame, Effects& effects) {
+    branch_.cancel(number, effects.net);
+    if (frame.begun && !frame.merged) {
+        effects.jobs.emplace_back(GiveUp{number});
+    }
 }
 
 void Head::begin_frames(wire::LinkId client, Session& session, wire::Time now, Effects& effects) {
@@ -279,9 +286,17 @@ void Head::begin_frames(wire::LinkId client, Session& session, wire::Time now, E
 void Head::collect(Effects& effects) {
     settle_mapping(effects);
     for (node::MergeJob& job : branch_.take_complete()) {
-        if (const auto frame = frames_.find(job.frame); frame != frames_.end()) {
-            frame->second.merged = true;
-            effects.jobs.emplace_back(Finish{std::move(job), frame->second.view, frame->second.asked});
+        const auto found = frames_.find(job.frame->number);
+        if (found == frames_.end()) {
+            continue;
+        }
+        FrameInWork& frame = found->second;
+        frame.begun = true;
+        if (job.last()) {
+            frame.merged = true;
+            effects.jobs.emplace_back(Finish{std::move(job), frame.view, frame.asked});
+        } else {
+            effects.jobs.emplace_back(Lay{std::move(job)});
         }
     }
 }

@@ -26,16 +26,24 @@ struct Limits {
 
 // ---- jobs carried out away from the network's thread ----
 
-// The last merge, the warp and the coding of a frame.
+// Of a frame: all merges but the last, one by one; then
+struct Lay {
+    node::MergeJob merge;
+};
+// the last, the warp and the coding;
 struct Finish {
     node::MergeJob merge;
     wire::View view;
     wire::Time asked;  // when the view arrived
 };
+// or an end without a picture.
+struct GiveUp {
+    std::uint64_t frame;
+};
 struct ReadVoxels {
     wire::pb::NeedVoxels need;  // of a box inside the cube
 };
-using Job = std::variant<Finish, ReadVoxels>;
+using Job = std::variant<Lay, Finish, GiveUp, ReadVoxels>;
 
 struct Finished {
     std::uint64_t number;
@@ -81,6 +89,7 @@ class Head {
         wire::LinkId client;
         wire::View view;
         wire::Time asked;
+        bool begun = false;   // some of it is laid
         bool merged = false;  // it is being finished: only the warp is to come
     };
 
@@ -99,6 +108,7 @@ class Head {
     void settle_mapping(Effects& effects);
     void describe_cube(wire::LinkId client, Effects& effects) const;
     void give_up_refinements(wire::LinkId client, Session& session, Effects& effects);
+    void give_up(std::uint64_t number, const FrameInWork& frame, Effects& effects);
     void begin_frames(wire::LinkId client, Session& session, wire::Time now, Effects& effects);
     void collect(Effects& effects);
     static void fault(wire::LinkId link, const wire::Fault& fault, Effects& effects);

@@ -4,10 +4,11 @@
 
 #include <boost/asio/thread_pool.hpp>
 #include <functional>
+#include <map>
 #include <memory>
-#include <optional>
 
 #include "common/base/workers.h"
+#include "common/image/canvas.h"
 #include "common/volume/source.h"
 #include "server/head/head.h"
 
@@ -24,12 +25,14 @@ class Service {
     void perform(head::Job job);
 
   private:
-    void finish(const head::Finish& job);
+    void lay(node::MergeJob& merge);
+    void finish(head::Finish& job);
     void read_voxels(const head::ReadVoxels& job);
 
     std::unique_ptr<volume::VoxelSource> cube_;  // touched by the reading thread only
     std::function<void(head::JobEvent)> tell_;
     base::Workers workers_;
+    std::map<std::uint64_t, image::Canvas> canvases_;  // by frame; touched by the frames' thread only
     boost::asio::thread_pool frames_{1};
     boost::asio::thread_pool reading_{1};
 };
