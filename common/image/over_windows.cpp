@@ -202,9 +202,9 @@ void lay_front_to_back(std::span<const SpanWindow> windows, const Rect& part, Wi
         return;
     }
     const Layers<SpanWindow>& layers = faces.front();
-    base::check(faces.size() == 1 && layers.face == onto.face &&
-                    intersection(layers.rect, part) == layers.rect,
-                "windows lie in the part that they are laid into");
+    base::check(
+        faces.size() == 1 && layers.face == onto.face && intersection(layers.rect, part) == layers.rect,
+        "windows lie in the part that they are laid into");
     lay_face(layers, part, onto);
 }
 

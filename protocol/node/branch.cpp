@@ -65,14 +65,14 @@ void Branch::begin(const view::Factorisation& factorisation, const wire::pb::Ren
     }
     std::vector<volume::Box> boxes;
     std::ranges::transform(children_, std::back_inserter(boxes), [](const Child& c) { return c.spec.box; });
-    Pending pending{.frame = std::make_shared<MergedFrame>(render.frame(), factorisation,
-                                                           view::bands_of(factorisation)),
-                    .order = view::visibility_order(factorisation, boxes),
-                    .parts = std::vector<Part>(children_.size()),
-                    .account = {},
-                    .waiting = {},
-                    .passed_on = 0,
-                    .since = now};
+    Pending pending{
+        .frame = std::make_shared<MergedFrame>(render.frame(), factorisation, view::bands_of(factorisation)),
+        .order = view::visibility_order(factorisation, boxes),
+        .parts = std::vector<Part>(children_.size()),
+        .account = {},
+        .waiting = {},
+        .passed_on = 0,
+        .since = now};
     const wire::Message message = wire::message(render);
     for (std::size_t i = 0; i < children_.size(); ++i) {
         if (children_[i].link) {
@@ -231,7 +231,8 @@ void Branch::on_windows(const Child& child, const wire::Message& message, std::v
     Pending& pending = found->second;
     Part& part = pending.parts[index];
     if (!pending.waiting.contains(index)) {
-        fault(*child.link, {wire::pb::REASON_INVALID, "windows: all of the frame's bands were known"}, effects);
+        fault(*child.link, {wire::pb::REASON_INVALID, "windows: all of the frame's bands were known"},
+              effects);
         return;
     }
     auto windows = wire::windows_from(message, pending.frame->bands, part.known);

@@ -84,7 +84,7 @@ class Branch {
     };
     struct Pending {
         std::shared_ptr<MergedFrame> frame;
-        std::vector<int> order;  // of the children, front to back
+        std::vector<int> order;   // of the children, front to back
         std::vector<Part> parts;  // one a child
         Account account;
         std::set<std::size_t> waiting;  // indices of children

@@ -32,8 +32,9 @@ class Timed {
 }  // namespace
 
 std::size_t MergeJob::bytes() const {
-    return std::accumulate(payloads.begin(), payloads.end(), std::size_t{0},
-                           [](std::size_t sum, const wire::Payload& payload) { return sum + payload->size(); });
+    return std::accumulate(
+        payloads.begin(), payloads.end(), std::size_t{0},
+        [](std::size_t sum, const wire::Payload& payload) { return sum + payload->size(); });
 }
 
 void merge_into(image::Canvas& canvas, MergeJob& job) {

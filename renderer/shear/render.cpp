@@ -59,9 +59,13 @@ class InOrder {
   public:
     InOrder(std::size_t bands, const OnBands& on_bands) : windows_(bands), on_bands_(on_bands) {}
 
-    void drawn(std::size_t band, Window window) {
-        std::unique_lock lock(mutex_);
+    void put(std::size_t band, Window window) {
+        const std::lock_guard lock(mutex_);
         windows_[band] = std::move(window);
+    }
+
+    void tell() {
+        std::unique_lock lock(mutex_);
         if (telling_) {
             return;  // that thread goes on to this one
         }
@@ -113,7 +117,7 @@ class FaceRenderer {
     void add(std::size_t band, const view::Band& cut) {
         const Rect rect = intersection(plan_.window(), plan_.turn(cut.rect));
         if (rect.empty()) {
-            order_.drawn(band, {});
+            order_.put(band, {});
             return;
         }
         Part& part = parts_.emplace_back();
@@ -129,7 +133,9 @@ class FaceRenderer {
     }
 
     void render(base::Workers& workers, const std::stop_token& stop) {
-        workers.for_each(tiles_, [this](std::int64_t n) { paint(n); }, stop);
+        order_.tell();  // where there is nothing
+        workers.for_each(
+            tiles_, [this](std::int64_t n) { paint(n); }, stop);
         frame_.samples += idle_.samples();
     }
 
@@ -141,8 +147,10 @@ class FaceRenderer {
             const Rect& rect = part.window.rect;
             part.window.pixels = image::Image<image::RgbaF>(rect.width(), rect.height(), image::Unfilled());
         });
-        const int x = part.rect.x0 + static_cast<int>((n - part.first_tile) % part.across) * Tile<Code>::width;
-        const int y = part.rect.y0 + static_cast<int>((n - part.first_tile) / part.across) * Tile<Code>::height;
+        const int x =
+            part.rect.x0 + static_cast<int>((n - part.first_tile) % part.across) * Tile<Code>::width;
+        const int y =
+            part.rect.y0 + static_cast<int>((n - part.first_tile) / part.across) * Tile<Code>::height;
         auto tile = idle_.take([this] {
             return std::make_unique<Tile<Code>>(frame_.volume, frame_.classification, plan_, frame_.met);
         });
@@ -150,7 +158,8 @@ class FaceRenderer {
         tile->store(part.window);
         idle_.give_back(std::move(tile));
         if (part.tiles_left.fetch_sub(1) == 1) {
-            order_.drawn(part.band, std::move(part.window));
+            order_.put(part.band, std::move(part.window));
+            order_.tell();
         }
     }
 

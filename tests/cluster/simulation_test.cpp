@@ -24,10 +24,10 @@ class Waves final : public volume::VoxelSource {
     }
 };
 
-wire::View view_of(const volume::Index3& n) {
+wire::View view_of(const volume::Index3& n, const view::ImageSize& size = {.width = 24, .height = 20}) {
     wire::View view;
     view.camera = view::camera_on({}, {.n = n, .spacing = {1, 1, 1}});
-    view.size = {.width = 24, .height = 20};
+    view.size = size;
     view.tf = view::default_transfer_function();
     return view;
 }
@@ -76,10 +76,9 @@ TEST(Simulation, EveryOrderOfJoiningEndsInTheSamePicture) {
 
 // Daemons die and come back at any moment, several at once, while a client asks: every request is answered,
 // and when all are back the picture is whole and right.
-TEST(Simulation, AnyStormOfDeathsEndsWhole) {
+void storm(std::uint64_t seeds, const wire::View& view) {
     Waves source;
-    const wire::View view = view_of(cube);
-    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
         support::Simulation simulation(seed, *tree::full_tree(2, seed % 2 == 0 ? 3 : 4), cube, source);
         const std::vector<tree::Place> places = all_daemons(simulation);
         std::ranges::for_each(places, [&](tree::Place place) { simulation.start_daemon(place); });
@@ -111,7 +110,21 @@ TEST(Simulation, AnyStormOfDeathsEndsWhole) {
         ASSERT_TRUE(simulation.run_until([&] { return simulation.answered_whole(last); })) << "seed " << seed;
         EXPECT_EQ(support::difference(expected, picture_of(simulation, view)).largest, 0) << "seed " << seed;
         EXPECT_TRUE(simulation.run_until([&] { return simulation.head().roster().all_ready(); }));
+        EXPECT_EQ(simulation.canvases(), 0U) << "seed " << seed;
     }
+}
+
+TEST(Simulation, AnyStormOfDeathsEndsWhole) {
+    storm(60, view_of(cube));
+}
+
+// Of pictures in several bands: a daemon dies between two of a frame's.
+TEST(Simulation, AnyStormOfDeathsBetweenBandsEndsWhole) {
+    const wire::View view = view_of(cube, {.width = 180, .height = 560});
+    const auto factorisation = view::factorise(view.camera, view.size, {.n = cube, .spacing = {1, 1, 1}},
+                                               view::sampling(view.quality));
+    ASSERT_GE(view::bands_of(factorisation).size(), 3U);
+    storm(16, view);
 }
 
 }  // namespace
