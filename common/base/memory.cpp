@@ -37,4 +37,11 @@ void release_free_memory() {
     malloc_trim(0);
 }
 
+void keep_free_memory() {
+    constexpr int largest = 32 << 20;  // that malloc does not map by itself; it takes no more
+    constexpr int kept = 256 << 20;    // at the end of a heap
+    mallopt(M_MMAP_THRESHOLD, largest);
+    mallopt(M_TRIM_THRESHOLD, kept);
+}
+
 }  // namespace shearwater::base

@@ -14,5 +14,8 @@ MemoryUse memory_use();
 
 // Gives freed memory back to the kernel: after loading, which frees much at once.
 void release_free_memory();
+// From now on memory that is freed stays here for the next that is asked for, up to a bound: what one frame
+// needs the next one does too, and the kernel clears every page that it hands out.
+void keep_free_memory();
 
 }  // namespace shearwater::base
