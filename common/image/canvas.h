@@ -12,8 +12,9 @@ namespace shearwater::image {
 
 class Canvas {
   public:
-    // A window for every face, each as large as its face. Its memory is taken up as bands are laid.
-    explicit Canvas(const view::Factorisation& factorisation);
+    // Begins a frame: a window for every face, each as large as its face. Memory stays from frame to frame,
+    // and is taken up as bands are laid.
+    void begin(const view::Factorisation& factorisation);
 
     // A band's windows, front to back, in its place.
     void lay(const view::Band& band, std::span<const SpanWindow> windows);

@@ -49,6 +49,17 @@ class Image {
     Image(const Image&) = delete;
     Image& operator=(const Image&) = delete;
 
+    // Of another size, in the same memory where that is enough. Its pixels are to be written.
+    void reshape(int width, int height) {
+        const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+        if (count > pixels_.capacity()) {
+            pixels_ = {};
+        }
+        pixels_.resize(count);
+        width_ = width;
+        height_ = height;
+    }
+
     int width() const { return width_; }
     int height() const { return height_; }
     bool empty() const { return pixels_.empty(); }

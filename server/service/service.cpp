@@ -2,6 +2,7 @@
 
 #include <boost/asio/post.hpp>
 #include <cstring>
+#include <utility>
 
 #include "common/image/warp.h"
 #include "protocol/wire/convert.h"
@@ -36,21 +37,29 @@ void Service::perform(head::Job job) {
     } else if (auto* frame = std::get_if<head::Finish>(&job)) {
         boost::asio::post(frames_, [this, work = std::move(*frame)]() mutable { finish(work); });
     } else if (auto* given_up = std::get_if<head::GiveUp>(&job)) {
-        boost::asio::post(frames_, [this, number = given_up->frame] { canvases_.erase(number); });
+        boost::asio::post(frames_, [this, number = given_up->frame] { done_with(number); });
     } else if (auto* read = std::get_if<head::ReadVoxels>(&job)) {
         boost::asio::post(reading_, [this, work = std::move(*read)] { read_voxels(work); });
     }
 }
 
-void Service::lay(node::MergeJob& merge) {
-    const auto canvas = canvases_.try_emplace(merge.frame->number, merge.frame->factorisation).first;
+image::Canvas& Service::lay(node::MergeJob& merge) {
+    const auto [canvas, is_new] = canvases_.try_emplace(merge.frame->number);
+    if (is_new) {
+        canvas->second = std::exchange(spare_, {});
+        canvas->second.begin(merge.frame->factorisation);
+    }
     node::merge_into(canvas->second, merge);
+    return canvas->second;
+}
+
+void Service::done_with(std::uint64_t frame) {
+    spare_ = std::move(canvases_.extract(frame).mapped());
 }
 
 void Service::finish(head::Finish& job) {
-    lay(job.merge);
+    const image::Canvas& canvas = lay(job.merge);
     const node::MergedFrame& merged = *job.merge.frame;
-    const image::Canvas canvas = std::move(canvases_.extract(merged.number).mapped());
     pb::Frame frame;
     frame.set_number(merged.number);
     frame.set_revision(job.view.revision);
@@ -59,7 +68,8 @@ void Service::finish(head::Finish& job) {
     const auto picture = image::warp(merged.factorisation, canvas.windows(), job.view.camera, job.view.size,
                                      job.view.tf.background, workers_);
     const wire::Time encode_begin = std::chrono::steady_clock::now();
-    wire::Message message = wire::frame_message(std::move(frame), picture, job.view.deflate);
+    done_with(merged.number);
+    wire::Message message = wire::frame_message(std::move(frame), picture, job.view.deflate, workers_);
     pb::FrameStats* const stats = std::get<pb::Frame>(message.body).mutable_stats();
     *stats->mutable_leaves() = job.merge.account.stats;
     stats->set_warp_seconds(std::chrono::duration<double>(encode_begin - warp_begin).count());

@@ -73,8 +73,14 @@ struct Merging : testing::Test {
     std::size_t payload = 0;
 };
 
+image::Canvas canvas_of(const MergeJob& job) {
+    image::Canvas canvas;
+    canvas.begin(job.frame->factorisation);
+    return canvas;
+}
+
 TEST_F(Merging, LaysTheNearerOverTheFarther) {
-    image::Canvas canvas(job.frame->factorisation);
+    image::Canvas canvas = canvas_of(job);
     merge_into(canvas, job);
     ASSERT_EQ(canvas.windows().size(), 1U);
     const image::Window& window = canvas.windows()[0];
@@ -89,14 +95,14 @@ TEST_F(Merging, LaysTheNearerOverTheFarther) {
 }
 
 TEST_F(Merging, SendsUpWhatItWouldHaveMerged) {
-    image::Canvas canvas(job.frame->factorisation);
+    image::Canvas canvas = canvas_of(job);
     merge_into(canvas, job);
     const wire::Message up = merge_coded(job);
     EXPECT_EQ(std::get<pb::Windows>(up.body).frame(), 1U);
     const auto band = wire::windows_from(up, job.frame->bands, 0);
     ASSERT_TRUE(band);
     EXPECT_EQ(band->window.rect, view::bounding(low_rect, high_rect));
-    image::Canvas sent(job.frame->factorisation);
+    image::Canvas sent = canvas_of(job);
     sent.lay(job.frame->bands[0], {&band->window, 1});
     const auto wanted = canvas.windows()[0].pixels.pixels();
     const auto got = sent.windows()[0].pixels.pixels();
@@ -154,7 +160,7 @@ TEST_F(Merging, LaysEmptyBands) {
     const view::Rect whole = frame.bands[0].rect;
     frame.bands = {{0, {0, 0, whole.x1, 1}}, {0, {0, 1, whole.x1, 2}}, {0, {0, 2, whole.x1, whole.y1}}};
     job.end = 3;
-    image::Canvas canvas(frame.factorisation);
+    image::Canvas canvas = canvas_of(job);
     const image::Window dirt = filled(whole, red);
     const image::CodedWindows coded = image::encode({&dirt, 1});
     canvas.lay({0, whole}, coded.windows);

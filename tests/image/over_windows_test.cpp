@@ -199,8 +199,9 @@ TEST(Canvas, HasEachBandInItsPlace) {
     std::vector<view::Band> bands = view::bands_of(f);
     ASSERT_GE(bands.size(), 6U);
     std::ranges::shuffle(bands, random);
-    Canvas canvas(f);
+    Canvas canvas;
     for (int turn = 0; turn < 2; ++turn) {
+        canvas.begin(f);
         std::vector<CodedWindows> coded;
         for (const view::Band& band : bands) {
             const Rect& rect = band.rect;

@@ -268,7 +268,10 @@ void Simulation::perform(head::Effects effects) {
 }
 
 image::Canvas& Simulation::canvas_of(node::MergeJob& job) {
-    const auto canvas = canvases_.try_emplace(job.frame->number, job.frame->factorisation).first;
+    const auto [canvas, is_new] = canvases_.try_emplace(job.frame->number);
+    if (is_new) {
+        canvas->second.begin(job.frame->factorisation);
+    }
     node::merge_into(canvas->second, job);
     return canvas->second;
 }
@@ -283,7 +286,7 @@ void Simulation::finish(head::Finish& job) {
     const auto picture = image::warp(merged.factorisation, canvas.windows(), job.view.camera, job.view.size,
                                      job.view.tf.background, workers_);
     canvases_.erase(merged.number);
-    perform(head_.handle(head::Finished{merged.number, wire::frame_message(std::move(frame), picture, false)},
+    perform(head_.handle(head::Finished{merged.number, wire::frame_message(std::move(frame), picture, false, workers_)},
                          fabric_.now()));
 }
 

@@ -150,7 +150,8 @@ TEST(Fuzz, WindowsOfAnyShape) {
     f.faces[0].width = 60;
     const std::vector<view::Band> bands = view::bands_of(f);
     ASSERT_EQ(bands.size(), 2U);
-    image::Canvas canvas(f);
+    image::Canvas canvas;
+    canvas.begin(f);
     std::size_t taken = 0;
     for (int i = 0; i < 60000; ++i) {
         const std::size_t band = below(random, bands.size());
