@@ -15,8 +15,8 @@ using namespace shearwater;
 
 namespace {
 
-junction::MergeDone carry_out(const junction::Merge& merge) {
-    return {.frame = merge.job.frame, .windows = node::merge_coded(merge.job)};
+junction::MergeDone carry_out(junction::Merge& merge) {
+    return {.windows = node::merge_coded(merge.job)};
 }
 
 // So much is merged sooner than another thread wakes up and reports back.
@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
                 continue;
             }
             ++merges_away;
-            boost::asio::post(merging, [&, merge = std::move(merge)] {
+            boost::asio::post(merging, [&, merge = std::move(merge)]() mutable {
                 auto done = std::make_shared<junction::MergeDone>(carry_out(merge));
                 runtime->post([&, done] {
                     --merges_away;

@@ -1,8 +1,10 @@
 #include "common/base/memory.h"
 
 #include <malloc.h>
+#include <sys/mman.h>
 
 #include <array>
+#include <bit>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
@@ -35,6 +37,24 @@ MemoryUse memory_use() {
 
 void release_free_memory() {
     malloc_trim(0);
+}
+
+void prefer_huge_pages(std::span<std::byte> memory) {
+    constexpr std::size_t huge = std::size_t{2} << 20;
+    const auto begin = std::bit_cast<std::uintptr_t>(memory.data());
+    const std::size_t before = (huge - begin % huge) % huge;
+    if (memory.size() < before + huge) {
+        return;
+    }
+    const auto whole = memory.subspan(before);
+    static_cast<void>(madvise(whole.data(), whole.size() / huge * huge, MADV_HUGEPAGE));
+}
+
+void keep_free_memory() {
+    constexpr int largest = 32 << 20;  // that malloc does not map by itself; it takes no more
+    constexpr int kept = 256 << 20;    // at the end of a heap
+    mallopt(M_MMAP_THRESHOLD, largest);
+    mallopt(M_TRIM_THRESHOLD, kept);
 }
 
 }  // namespace shearwater::base

@@ -49,6 +49,17 @@ class Image {
     Image(const Image&) = delete;
     Image& operator=(const Image&) = delete;
 
+    // Of another size, in the same memory where that is enough. Its pixels are to be written.
+    void reshape(int width, int height) {
+        const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+        if (count > pixels_.capacity()) {
+            pixels_ = {};
+        }
+        pixels_.resize(count);
+        width_ = width;
+        height_ = height;
+    }
+
     int width() const { return width_; }
     int height() const { return height_; }
     bool empty() const { return pixels_.empty(); }
@@ -58,8 +69,10 @@ class Image {
     }
     Pixel& at(int x, int y) { return row(y)[static_cast<std::size_t>(x)]; }
     const Pixel& at(int x, int y) const { return row(y)[static_cast<std::size_t>(x)]; }
-    std::span<Pixel> pixels() { return pixels_; }
-    std::span<const Pixel> pixels() const { return pixels_; }
+    std::span<Pixel> pixels() & { return pixels_; }
+    std::span<const Pixel> pixels() const& { return pixels_; }
+    void pixels() && = delete;  // they would be gone before anyone looked at them
+    void pixels() const&& = delete;
     Image clone() const {
         Image copy(width_, height_);
         copy.pixels_ = pixels_;

@@ -115,17 +115,26 @@ void lay(std::span<const Rgba16* const> parts, std::span<RgbaF> to) {
     }
 }
 
-Window merge_face(const Layers<SpanWindow>& layers) {
-    const Rect& rect = layers.rect;
-    Window merged{.face = layers.face, .rect = rect, .pixels = Image<RgbaF>(rect.width(), rect.height())};
+// Into a part of a window that holds the layers' rectangle.
+void lay_face(const Layers<SpanWindow>& layers, const Rect& part, Window& onto) {
     Rows rows(layers);
     Sweep sweep;
-    for (int y = rect.y0; y < rect.y1; ++y) {
-        const std::span<RgbaF> to = merged.pixels.row(y - rect.y0);
+    for (int y = part.y0; y < part.y1; ++y) {
+        const std::span<RgbaF> to = onto.pixels.row(y - onto.rect.y0)
+                                        .subspan(static_cast<std::size_t>(part.x0 - onto.rect.x0),
+                                                 static_cast<std::size_t>(part.width()));
+        std::ranges::fill(to, RgbaF{});
         sweep(rows.at(y), [&](int x, int length, std::span<const Rgba16* const> parts) {
-            lay(parts, to.subspan(static_cast<std::size_t>(x - rect.x0), static_cast<std::size_t>(length)));
+            lay(parts, to.subspan(static_cast<std::size_t>(x - part.x0), static_cast<std::size_t>(length)));
         });
     }
+}
+
+Window merge_face(const Layers<SpanWindow>& layers) {
+    const Rect& rect = layers.rect;
+    Window merged{
+        .face = layers.face, .rect = rect, .pixels = Image<RgbaF>(rect.width(), rect.height(), Unfilled())};
+    lay_face(layers, rect, merged);
     return merged;
 }
 
@@ -183,6 +192,20 @@ std::vector<Window> merge_front_to_back(std::span<const Window> windows) {
 
 std::vector<Window> merge_front_to_back(std::span<const SpanWindow> windows) {
     return merge(windows);
+}
+
+void lay_front_to_back(std::span<const SpanWindow> windows, const Rect& part, Window& onto) {
+    base::check(intersection(part, onto.rect) == part, "a part lies in its window");
+    const auto faces = by_face(windows);
+    if (faces.empty()) {
+        lay_face({.face = onto.face, .rect = {}, .windows = {}}, part, onto);
+        return;
+    }
+    const Layers<SpanWindow>& layers = faces.front();
+    base::check(
+        faces.size() == 1 && layers.face == onto.face && intersection(layers.rect, part) == layers.rect,
+        "windows lie in the part that they are laid into");
+    lay_face(layers, part, onto);
 }
 
 CodedWindows merge_coded(std::span<const SpanWindow> windows) {

@@ -14,6 +14,10 @@ namespace shearwater::image {
 std::vector<Window> merge_front_to_back(std::span<const Window> windows);
 std::vector<Window> merge_front_to_back(std::span<const SpanWindow> windows);
 
+// Into a part of a window of the same face: every pixel of the part is written, those that nothing covers as
+// transparent. The windows lie in the part.
+void lay_front_to_back(std::span<const SpanWindow> windows, const Rect& part, Window& onto);
+
 // The same straight into the form that windows travel in: `windows` view parts of `bytes`, one behind the
 // other. Stretches that one window alone covers are passed on as they came.
 struct CodedWindows {

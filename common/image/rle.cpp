@@ -223,6 +223,28 @@ std::size_t encode_rle(std::span<const Rgba8> pixels, std::span<std::byte> out) 
     return HWY_DYNAMIC_DISPATCH(encode)(pixels.data(), pixels.size(), out.data());
 }
 
+std::size_t encode_rle(std::span<const Rgba8> pixels, std::span<std::byte> out, base::Workers& workers) {
+    base::check(out.size() >= rle_bound(pixels.size()), "the output holds the bound");
+    // In whole stretches, so that the parts' bounds are together that of all.
+    constexpr std::size_t least = rle::longest_stretch << 7;
+    const std::size_t threads = static_cast<std::size_t>(workers.threads());
+    const std::size_t wanted = std::max(least, (pixels.size() + threads - 1) / threads);
+    const std::size_t each =
+        (wanted + rle::longest_stretch - 1) / rle::longest_stretch * rle::longest_stretch;
+    std::vector<std::size_t> sizes((pixels.size() + each - 1) / each);
+    workers.for_each(static_cast<std::int64_t>(sizes.size()), [&](std::int64_t n) {
+        const std::size_t part = static_cast<std::size_t>(n), begin = part * each;
+        sizes[part] = encode_rle(pixels.subspan(begin, std::min(each, pixels.size() - begin)),
+                                 out.subspan(rle_bound(begin)));
+    });
+    std::size_t end = 0;
+    for (std::size_t part = 0; part < sizes.size(); ++part) {
+        std::memmove(out.data() + end, out.data() + rle_bound(part * each), sizes[part]);
+        end += sizes[part];
+    }
+    return end;
+}
+
 base::Status decode_rle(std::span<const std::byte> bytes, std::span<Rgba8> pixels) {
     return HWY_DYNAMIC_DISPATCH(decode)(bytes, pixels);
 }

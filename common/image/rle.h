@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/base/result.h"
+#include "common/base/workers.h"
 #include "common/image/image.h"
 
 namespace shearwater::image {
@@ -15,6 +16,8 @@ namespace shearwater::image {
 std::size_t rle_bound(std::size_t pixels);
 // Encodes into `out` (of at least rle_bound bytes) and returns how many bytes were written.
 std::size_t encode_rle(std::span<const Rgba8> pixels, std::span<std::byte> out);
+// The same by several threads, each a part of the pixels: a run may be cut where two parts meet.
+std::size_t encode_rle(std::span<const Rgba8> pixels, std::span<std::byte> out, base::Workers& workers);
 // Decodes untrusted bytes: they must give exactly pixels.size() pixels and leave nothing over.
 base::Status decode_rle(std::span<const std::byte> bytes, std::span<Rgba8> pixels);
 

@@ -23,7 +23,6 @@ struct Memory {
     std::uint64_t peak = 0;
 };
 struct MergeDone {
-    std::uint64_t frame;
     wire::Message windows;  // what came of it
 };
 

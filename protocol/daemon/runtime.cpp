@@ -7,6 +7,8 @@
 #include <boost/asio/post.hpp>
 #include <cstdio>
 
+#include "common/base/memory.h"
+
 namespace shearwater::daemon {
 
 using namespace std::chrono_literals;
@@ -20,6 +22,7 @@ std::string process_name(const std::string& program) {
 Runtime::Runtime(const std::string& program, link::Secret secret,
                  std::function<void(wire::NetEvent)> on_event, link::Limits limits)
     : alive_(boost::asio::make_work_guard(io_)), signals_(io_, SIGINT, SIGTERM) {
+    base::keep_free_memory();
     hub_.emplace(io_, std::move(secret), process_name(program), std::move(on_event), limits);
     signals_.async_wait([this](const boost::system::error_code& failed, int) {
         if (!failed) {

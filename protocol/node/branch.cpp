@@ -71,10 +71,18 @@ void Branch::begin(const view::Factorisation& factorisation, const wire::pb::Ren
         const std::uint64_t oldest = pending_.begin()->first;
         cancel(oldest, effects);
     }
-    Pending pending{.factorisation = factorisation, .parts = {}, .missing = {}, .waiting = {}, .since = now};
+    std::vector<volume::Box> boxes;
+    std::ranges::transform(children_, std::back_inserter(boxes), [](const Child& c) { return c.spec.box; });
+    Pending pending{
+        .frame = std::make_shared<MergedFrame>(render.frame(), factorisation, view::bands_of(factorisation)),
+        .order = view::visibility_order(factorisation, boxes),
+        .parts = std::vector<Part>(children_.size()),
+        .account = {},
+        .waiting = {},
+        .passed_on = 0,
+        .since = now};
     const wire::Message message = wire::message(render);
     for (std::size_t i = 0; i < children_.size(); ++i) {
-        pending.parts.push_back({.box = children_[i].spec.box});
         if (children_[i].link) {
             pending.waiting.insert(i);
             effects.push_back(wire::Send{*children_[i].link, message});
@@ -83,7 +91,7 @@ void Branch::begin(const view::Factorisation& factorisation, const wire::pb::Ren
         }
     }
     pending_.insert_or_assign(render.frame(), std::move(pending));
-    finish(render.frame());
+    pass_on(render.frame());
 }
 
 void Branch::cancel(std::uint64_t frame, std::vector<NetEffect>& effects) {
@@ -111,20 +119,49 @@ void Branch::cancel_all(std::vector<NetEffect>& effects) {
 void Branch::give_up(Pending& pending, std::size_t index) const {
     const ChildSpec& spec = children_[index].spec;
     pending.waiting.erase(index);
-    pending.missing.push_back({spec.place, spec.box});
+    pending.parts[index].known = pending.frame->bands.size();
+    pending.parts[index].given_up = true;
+    pending.account.missing.push_back({spec.place, spec.box});
 }
 
-void Branch::finish(std::uint64_t frame) {
+void Branch::pass_on(std::uint64_t frame) {
     const auto found = pending_.find(frame);
-    if (found == pending_.end() || !found->second.waiting.empty()) {
+    if (found == pending_.end()) {
         return;
     }
     Pending& pending = found->second;
-    complete_.push_back({.frame = frame,
-                         .factorisation = std::move(pending.factorisation),
-                         .parts = std::move(pending.parts),
-                         .missing = std::move(pending.missing)});
-    pending_.erase(found);
+    std::size_t known = pending.frame->bands.size();
+    for (const Part& part : pending.parts) {
+        known = std::min(known, part.known);
+    }
+    while (pending.passed_on < known) {
+        complete_.push_back(take_bands(pending, known));
+    }
+    if (pending.waiting.empty()) {
+        if (pending.frame->bands.empty()) {
+            complete_.push_back(take_bands(pending, 0));
+        }
+        complete_.back().account = std::move(pending.account);
+        pending_.erase(found);
+    }
+}
+
+// Up to the first band that somebody has something in.
+MergeJob Branch::take_bands(Pending& pending, std::size_t known) {
+    MergeJob job{.frame = pending.frame, .first = pending.passed_on, .end = pending.passed_on};
+    while (job.end < known && job.windows.empty()) {
+        for (const int child : pending.order) {
+            auto& windows = pending.parts[static_cast<std::size_t>(child)].windows;
+            if (const auto found = windows.find(job.end); found != windows.end()) {
+                job.windows.push_back(found->second.window);
+                job.payloads.push_back(std::move(found->second.payload));
+                windows.erase(found);
+            }
+        }
+        ++job.end;
+    }
+    pending.passed_on = job.end;
+    return job;
 }
 
 std::vector<MergeJob> Branch::take_complete() {
@@ -146,7 +183,7 @@ void Branch::link_down(wire::LinkId link) {
             touched.push_back(frame);
         }
     }
-    std::ranges::for_each(touched, [this](std::uint64_t frame) { finish(frame); });
+    std::ranges::for_each(touched, [this](std::uint64_t frame) { pass_on(frame); });
 }
 
 void Branch::tick(wire::Time now) {
@@ -159,7 +196,7 @@ void Branch::tick(wire::Time now) {
             late.push_back(frame);
         }
     }
-    std::ranges::for_each(late, [this](std::uint64_t frame) { finish(frame); });
+    std::ranges::for_each(late, [this](std::uint64_t frame) { pass_on(frame); });
 }
 
 void Branch::fault(wire::LinkId link, const wire::Fault& fault, std::vector<NetEffect>& effects) {
@@ -196,30 +233,42 @@ void Branch::on_windows(const Child& child, const wire::Message& message, std::v
     const auto& body = std::get<wire::pb::Windows>(message.body);
     const auto found = pending_.find(body.frame());
     const std::size_t index = index_of(child);
-    if (found == pending_.end() || !found->second.waiting.contains(index)) {
-        return;  // cancelled, or given up before
+    if (found == pending_.end() || found->second.parts[index].given_up) {
+        return;  // it is cancelled, or goes on without
     }
     Pending& pending = found->second;
-    auto windows = wire::windows_from(message, pending.factorisation);
+    Part& part = pending.parts[index];
+    if (!pending.waiting.contains(index)) {
+        fault(*child.link, {wire::pb::REASON_INVALID, "windows: all of the frame's bands were known"},
+              effects);
+        return;
+    }
+    auto windows = wire::windows_from(message, pending.frame->bands, part.known);
     if (!windows) {
         fault(*child.link, windows.error(), effects);
         return;
     }
+    std::vector<Missing> missing;
     for (const wire::pb::Missing& entry : body.missing()) {
         const auto box = wire::box_from(entry.box());
         if (!box) {
             fault(*child.link, box.error(), effects);
             return;
         }
-        pending.missing.push_back({static_cast<int>(entry.place()), *box});
+        missing.push_back({static_cast<int>(entry.place()), *box});
     }
-    pending.waiting.erase(index);
-    MergeJob::Part& part = pending.parts[index];
-    part.windows = *std::move(windows);
-    part.payload = message.payload;
-    part.stats = body.stats();
-    part.present = true;
-    finish(body.frame());
+    part.known = windows->bands;
+    if (!windows->window.rect.empty()) {
+        part.windows.emplace(windows->bands - 1, Waiting{windows->window, message.payload});
+    }
+    wire::pb::LeafStats& stats = pending.account.stats;
+    stats.set_window_bytes(stats.window_bytes() + message.payload_size());
+    if (part.known == pending.frame->bands.size()) {
+        pending.waiting.erase(index);
+        pending.account.missing.insert(pending.account.missing.end(), missing.begin(), missing.end());
+        add(body.stats(), stats);
+    }
+    pass_on(body.frame());
 }
 
 void Branch::on_histogram(std::size_t index, const wire::pb::HistogramReport& report,

@@ -1,10 +1,11 @@
 #pragma once
 // What every node with children does, the server as much as a compositor: it knows its children's links,
-// passes requests down, gathers their windows frame by frame, their histograms, and routes voxels.
+// passes requests down, gathers their windows band by band, their histograms, and routes voxels.
 
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <vector>
@@ -52,7 +53,8 @@ class Branch {
     void link_down(wire::LinkId link);
     void tick(wire::Time now);
 
-    // Frames for which every child has answered or is missing, in the order they became so.
+    // Bands that every child has given or will not give, frame by frame in their order. A frame's last says
+    // what it lacks.
     std::vector<MergeJob> take_complete();
 
     // What children count: all of their voxels, or, before, those of their sketches.
@@ -72,11 +74,24 @@ class Branch {
         std::optional<wire::LinkId> link;
         std::array<std::optional<volume::Histogram>, 2> histograms;  // by Counted
     };
+    // A window that waits for the other children's of its band.
+    struct Waiting {
+        image::SpanWindow window;
+        wire::Payload payload;  // that it views
+    };
+    // What a child has given of a frame.
+    struct Part {
+        std::size_t known = 0;                   // bands
+        std::map<std::size_t, Waiting> windows;  // by band
+        bool given_up = false;
+    };
     struct Pending {
-        view::Factorisation factorisation;
-        std::vector<MergeJob::Part> parts;  // one a child
-        std::vector<Missing> missing;
+        std::shared_ptr<MergedFrame> frame;
+        std::vector<int> order;   // of the children, front to back
+        std::vector<Part> parts;  // one a child
+        Account account;
         std::set<std::size_t> waiting;  // indices of children
+        std::size_t passed_on = 0;      // bands
         wire::Time since;
     };
 
@@ -87,7 +102,8 @@ class Branch {
     void on_histogram(std::size_t index, const wire::pb::HistogramReport& report,
                       std::vector<wire::NetEffect>& effects);
     void give_up(Pending& pending, std::size_t index) const;
-    void finish(std::uint64_t frame);
+    void pass_on(std::uint64_t frame);
+    static MergeJob take_bands(Pending& pending, std::size_t known);
 
     std::uint64_t epoch_ = 0;
     std::vector<Child> children_;

@@ -2,85 +2,62 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
+
+#include "common/image/over_windows.h"
 
 namespace shearwater::node {
 namespace {
 
-// The slowest path counts for time, every node for work.
-void add_stats(wire::pb::LeafStats& sum, const wire::pb::LeafStats& part) {
-    sum.set_render_seconds(std::max(sum.render_seconds(), part.render_seconds()));
-    sum.set_composite_seconds(std::max(sum.composite_seconds(), part.composite_seconds()));
-    sum.set_samples(sum.samples() + part.samples());
-    sum.set_bricks_total(sum.bricks_total() + part.bricks_total());
-    sum.set_bricks_empty(sum.bricks_empty() + part.bricks_empty());
-    sum.set_bricks_rendered(sum.bricks_rendered() + part.bricks_rendered());
-    sum.set_window_bytes(sum.window_bytes() + part.window_bytes());
-}
-
-using Clock = std::chrono::steady_clock;
-
-void add_composite(wire::pb::LeafStats& stats, Clock::time_point since) {
-    const std::chrono::duration<double> spent = Clock::now() - since;
-    stats.set_composite_seconds(stats.composite_seconds() + spent.count());
-}
-
-// All that the children gave, front to back.
-struct Given {
-    std::vector<image::SpanWindow> windows;
-    wire::pb::LeafStats stats;
-};
-Given front_to_back(const MergeJob& job) {
-    std::vector<volume::Box> boxes;
-    for (const MergeJob::Part& part : job.parts) {
-        boxes.push_back(part.box);
-    }
-    Given given;
-    for (const int index : view::visibility_order(job.factorisation, boxes)) {
-        const MergeJob::Part& part = job.parts[static_cast<std::size_t>(index)];
-        if (!part.present) {
-            continue;
+// Adds what a merge took to its frame, and to the account that goes with the frame's last.
+class Timed {
+  public:
+    explicit Timed(MergeJob& job) : job_(job) {}
+    Timed(const Timed&) = delete;
+    Timed& operator=(const Timed&) = delete;
+    ~Timed() {
+        const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin_;
+        job_.frame->seconds += spent.count();
+        if (job_.last()) {
+            wire::pb::LeafStats& stats = job_.account.stats;
+            stats.set_composite_seconds(stats.composite_seconds() + job_.frame->seconds);
         }
-        given.windows.insert(given.windows.end(), part.windows.begin(), part.windows.end());
-        add_stats(given.stats, part.stats);
     }
-    given.stats.set_window_bytes(given.stats.window_bytes() + job.bytes());
-    return given;
-}
 
-wire::Message message_of(std::uint64_t frame, image::CodedWindows windows,
-                         const std::vector<Missing>& missing, const wire::pb::LeafStats& stats) {
-    wire::Message message = wire::windows_message(frame, std::move(windows));
-    auto& body = std::get<wire::pb::Windows>(message.body);
-    *body.mutable_stats() = stats;
-    put(missing, *body.mutable_missing());
-    return message;
-}
+  private:
+    MergeJob& job_;
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
 
 }  // namespace
 
 std::size_t MergeJob::bytes() const {
-    std::size_t sum = 0;
-    for (const Part& part : parts) {
-        sum += part.payload ? part.payload->size() : 0;
+    return std::accumulate(
+        payloads.begin(), payloads.end(), std::size_t{0},
+        [](std::size_t sum, const wire::Payload& payload) { return sum + payload->size(); });
+}
+
+void merge_into(image::Canvas& canvas, MergeJob& job) {
+    const Timed timed(job);
+    const std::vector<view::Band>& bands = job.frame->bands;
+    for (std::size_t band = job.first; band < job.end; ++band) {
+        canvas.lay(bands[band], band + 1 == job.end ? job.windows : std::vector<image::SpanWindow>());
     }
-    return sum;
 }
 
-Merged merge(const MergeJob& job) {
-    const auto begin = Clock::now();
-    const Given given = front_to_back(job);
-    Merged merged{.frame = job.frame, .windows = {}, .missing = job.missing, .stats = given.stats};
-    merged.windows = image::merge_front_to_back(given.windows);
-    add_composite(merged.stats, begin);
-    return merged;
-}
-
-wire::Message merge_coded(const MergeJob& job) {
-    const auto begin = Clock::now();
-    Given given = front_to_back(job);
-    image::CodedWindows merged = image::merge_coded(given.windows);
-    add_composite(given.stats, begin);
-    return message_of(job.frame, std::move(merged), job.missing, given.stats);
+wire::Message merge_coded(MergeJob& job) {
+    const auto merged = [&job] {
+        const Timed timed(job);
+        const std::uint64_t frame = job.frame->number;
+        return job.windows.size() == 1
+                   ? wire::windows_message(frame, {job.end, job.windows.front()}, job.payloads.front())
+                   : wire::windows_message(frame, job.end, image::merge_coded(job.windows));
+    };
+    wire::Message message = merged();
+    if (job.last()) {
+        put(job.account, std::get<wire::pb::Windows>(message.body));
+    }
+    return message;
 }
 
 void put(const std::vector<Missing>& missing,
@@ -92,12 +69,19 @@ void put(const std::vector<Missing>& missing,
     }
 }
 
-wire::Message to_message(const Merged& drawn) {
-    const auto begin = Clock::now();
-    image::CodedWindows coded = image::encode(drawn.windows);
-    wire::pb::LeafStats stats = drawn.stats;
-    add_composite(stats, begin);
-    return message_of(drawn.frame, std::move(coded), drawn.missing, stats);
+void put(const Account& account, wire::pb::Windows& body) {
+    *body.mutable_stats() = account.stats;
+    put(account.missing, *body.mutable_missing());
+}
+
+void add(const wire::pb::LeafStats& part, wire::pb::LeafStats& sum) {
+    sum.set_render_seconds(std::max(sum.render_seconds(), part.render_seconds()));
+    sum.set_composite_seconds(std::max(sum.composite_seconds(), part.composite_seconds()));
+    sum.set_samples(sum.samples() + part.samples());
+    sum.set_bricks_total(sum.bricks_total() + part.bricks_total());
+    sum.set_bricks_empty(sum.bricks_empty() + part.bricks_empty());
+    sum.set_bricks_rendered(sum.bricks_rendered() + part.bricks_rendered());
+    sum.set_window_bytes(sum.window_bytes() + part.window_bytes());
 }
 
 }  // namespace shearwater::node

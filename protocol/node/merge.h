@@ -1,10 +1,12 @@
 #pragma once
-// One frame's windows from a junction's children, and the merging of them: the work a junction does on
-// its pool.
+// One band's windows from a junction's children, and the merging of them: the work a junction does on its
+// pool.
 
+#include <memory>
 #include <vector>
 
-#include "common/image/image.h"
+#include "common/image/canvas.h"
+#include "common/view/bands.h"
 #include "common/view/factorisation.h"
 #include "common/volume/box.h"
 #include "protocol/wire/convert.h"
@@ -19,39 +21,41 @@ struct Missing {
     bool operator==(const Missing&) const = default;
 };
 
-struct MergeJob {
-    struct Part {
-        volume::Box box;                         // the child's
-        std::vector<image::SpanWindow> windows;  // viewing the payload
-        wire::Payload payload;
-        wire::pb::LeafStats stats;
-        bool present = false;  // otherwise the child gave nothing
-    };
+// What is said of a frame with its last band.
+struct Account {
+    std::vector<Missing> missing;
+    wire::pb::LeafStats stats;  // of all below
+};
 
-    std::uint64_t frame = 0;
+// What all of a frame's merges share. They are done one after another, and add up what they take.
+struct MergedFrame {
+    std::uint64_t number = 0;
     view::Factorisation factorisation;
-    std::vector<Part> parts;
-    std::vector<Missing> missing;
-
-    std::size_t bytes() const;  // that the parts came in
+    std::vector<view::Band> bands;
+    double seconds = 0;
 };
 
-struct Merged {
-    std::uint64_t frame = 0;
-    std::vector<image::Window> windows;  // at most one a face
-    std::vector<Missing> missing;
-    wire::pb::LeafStats stats;  // of all below, and this merge
+// The bands [first, end) of a frame, of which only the last has anything.
+struct MergeJob {
+    std::shared_ptr<MergedFrame> frame;
+    std::size_t first = 0, end = 0;
+    std::vector<image::SpanWindow> windows;  // front to back
+    std::vector<wire::Payload> payloads;     // that they view
+    Account account;                         // of the last job
+
+    bool last() const { return end == frame->bands.size(); }
+    std::size_t bytes() const;  // that the windows came in
 };
 
-// Merges in visibility order, front to back: at the head into pixels to warp, at a junction into what it
-// sends up.
-Merged merge(const MergeJob& job);
-wire::Message merge_coded(const MergeJob& job);
+// Merges front to back: at the head into pixels to warp, at a junction into what it sends up. The last one's
+// account is that of the frame with its merges here.
+void merge_into(image::Canvas& canvas, MergeJob& job);
+wire::Message merge_coded(MergeJob& job);
 
-// Names the missing parts in a message.
+// What is missing, and both of an account, into a message.
 void put(const std::vector<Missing>& missing, google::protobuf::RepeatedPtrField<wire::pb::Missing>& entries);
-
-// What a leaf sends up: windows, what they lack and what they cost, coding them included.
-wire::Message to_message(const Merged& drawn);
+void put(const Account& account, wire::pb::Windows& body);
+// A child's account added to that of the frame. The slowest path counts for time, every node for work.
+void add(const wire::pb::LeafStats& part, wire::pb::LeafStats& sum);
 
 }  // namespace shearwater::node

@@ -6,6 +6,7 @@
 
 #include "common/image/image.h"
 #include "common/image/over_windows.h"
+#include "common/view/bands.h"
 #include "common/view/camera.h"
 #include "common/view/factorisation.h"
 #include "common/view/transfer_function.h"
@@ -47,11 +48,18 @@ struct View {
 pb::SetView to_wire(const View& view);
 Parsed<View> view_from(const pb::SetView& view);
 
-// Windows and the message they travel in: heads in the body, spans in the payload.
-Message windows_message(std::uint64_t frame, image::CodedWindows windows);
-// The windows of a message, viewing its payload: faces and rectangles are those of the factorisation, each
-// face at most once, spans keep to their rectangles, and the payload holds nothing else.
-Parsed<std::vector<image::SpanWindow>> windows_from(const Message& message,
-                                                    const view::Factorisation& factorisation);
+// What a message adds to the bands of a frame that are known already: all up to `bands` are now, and the last
+// of them has the window. That has no pixels where there is nothing.
+struct BandWindow {
+    std::size_t bands = 0;
+    image::SpanWindow window;
+};
+// With the window, or none, of the last of the bands: its head in the body, its spans the payload.
+Message windows_message(std::uint64_t frame, std::size_t bands, image::CodedWindows windows);
+Message windows_message(std::uint64_t frame, const BandWindow& band, Payload payload);
+// The window views the message's payload. It keeps to its band, its spans to its rectangle, and the payload
+// holds nothing else. At least one of the frame's `all` bands is new, and what a frame lacks and what it cost
+// comes with the last one.
+Parsed<BandWindow> windows_from(const Message& message, std::span<const view::Band> all, std::size_t known);
 
 }  // namespace shearwater::wire

@@ -1,7 +1,7 @@
-// Windows: heads in the body, spans in the payload.
+// Windows: a head in the body, spans in the payload.
 
-#include <array>
 #include <bit>
+#include <utility>
 
 #include "common/base/check.h"
 #include "protocol/wire/convert.h"
@@ -10,12 +10,23 @@
 namespace shearwater::wire {
 namespace {
 
-Parsed<view::Rect> rect_from(const pb::Rect& rect, const view::Face& face) {
-    const view::Rect from{.x0 = rect.x0(), .y0 = rect.y0(), .x1 = rect.x1(), .y1 = rect.y1()};
-    if (from.x0 < 0 || from.y0 < 0 || from.x1 > face.width || from.y1 > face.height || from.empty()) {
-        return invalid("windows.rect: it is empty or leaves its face");
+view::Rect rect_from(const pb::Rect& rect) {
+    return {.x0 = rect.x0(), .y0 = rect.y0(), .x1 = rect.x1(), .y1 = rect.y1()};
+}
+
+// The only window of a message, in the band that it is for.
+Parsed<image::SpanWindow> window_from(const pb::WindowHead& head, const view::Band& band,
+                                      std::span<const std::byte> bytes) {
+    const view::Rect rect = rect_from(head.rect());
+    if (std::cmp_not_equal(head.face(), band.face) || rect.empty() ||
+        view::intersection(rect, band.rect) != rect) {
+        return invalid("windows.rect: it is empty or leaves its band");
     }
-    return from;
+    const auto size = image::check_spans(bytes, rect);
+    if (!size) {
+        return invalid("windows: " + size.error().detail);
+    }
+    return image::SpanWindow{.face = band.face, .rect = rect, .bytes = bytes.first(*size)};
 }
 
 }  // namespace
@@ -29,50 +40,59 @@ pb::Rect to_wire(const view::Rect& rect) {
     return to;
 }
 
-Message windows_message(std::uint64_t frame, image::CodedWindows windows) {
-    pb::Windows body;
-    body.set_frame(frame);
-    for (const image::SpanWindow& window : windows.windows) {
-        pb::WindowHead& head = *body.add_windows();
-        head.set_face(static_cast<std::uint32_t>(window.face));
-        *head.mutable_rect() = to_wire(window.rect);
+Message windows_message(std::uint64_t frame, std::size_t bands, image::CodedWindows windows) {
+    base::check(windows.windows.size() <= 1, "a band has one window");
+    if (windows.windows.empty()) {
+        return windows_message(frame, BandWindow{.bands = bands, .window = {}}, nullptr);
     }
-    return message(std::move(body), std::move(windows.bytes));
+    const BandWindow band{.bands = bands, .window = windows.windows.front()};
+    return windows_message(frame, band, std::make_shared<const base::Buffer>(std::move(windows.bytes)));
 }
 
-Parsed<std::vector<image::SpanWindow>> windows_from(const Message& message,
-                                                    const view::Factorisation& factorisation) {
+Message windows_message(std::uint64_t frame, const BandWindow& band, Payload payload) {
+    pb::Windows body;
+    body.set_frame(frame);
+    body.set_bands(static_cast<std::uint32_t>(band.bands));
+    if (!band.window.rect.empty()) {
+        pb::WindowHead& head = *body.add_windows();
+        head.set_face(static_cast<std::uint32_t>(band.window.face));
+        *head.mutable_rect() = to_wire(band.window.rect);
+    }
+    return {std::move(body), std::move(payload)};
+}
+
+Parsed<BandWindow> windows_from(const Message& message, std::span<const view::Band> all, std::size_t known) {
     const auto* body = std::get_if<pb::Windows>(&message.body);
     base::check(body != nullptr, "windows are taken from a Windows message");
-    base::check(factorisation.faces.size() <= view::Factorisation::max_faces, "the factorisation is valid");
-    std::span<const std::byte> left;
+    std::span<const std::byte> payload;
     if (message.payload) {
-        left = *message.payload;
+        payload = *message.payload;
     }
-    base::check(std::bit_cast<std::uintptr_t>(left.data()) % alignof(image::Rgba16) == 0,
+    base::check(std::bit_cast<std::uintptr_t>(payload.data()) % alignof(image::Rgba16) == 0,
                 "a payload is aligned for pixels");
-    std::vector<image::SpanWindow> windows;
-    std::array<bool, view::Factorisation::max_faces> seen{};
-    for (const pb::WindowHead& head : body->windows()) {
-        if (head.face() >= factorisation.faces.size() || seen[head.face()]) {
-            return invalid("windows.face: no such face, or one that was there before");
-        }
-        seen[head.face()] = true;
-        const auto rect = rect_from(head.rect(), factorisation.faces[head.face()]);
-        if (!rect) {
-            return rect.error();
-        }
-        const auto size = image::check_spans(left, *rect);
-        if (!size) {
-            return invalid("windows: " + size.error().detail);
-        }
-        windows.push_back({.face = static_cast<int>(head.face()), .rect = *rect, .bytes = left.first(*size)});
-        left = left.subspan(*size);
+    BandWindow got{.bands = body->bands(), .window = {}};
+    // A frame without faces has no bands, and is known with the first message.
+    if (got.bands > all.size() || (got.bands <= known && !all.empty())) {
+        return invalid("windows.bands: " + std::to_string(got.bands) + " of " + std::to_string(all.size()) +
+                       " where " + std::to_string(known) + " were known");
     }
-    if (!left.empty()) {
-        return invalid("windows: the payload is longer than its windows");
+    if (got.bands < all.size() && (body->missing_size() > 0 || body->has_stats())) {
+        return invalid("windows: what a frame lacks or cost is said before its last band");
     }
-    return windows;
+    if (body->windows_size() > 0) {
+        if (body->windows_size() > 1 || got.bands == 0) {
+            return invalid("windows: more than one, or one of no band");
+        }
+        const auto window = window_from(body->windows(0), all[got.bands - 1], payload);
+        if (!window) {
+            return window.error();
+        }
+        got.window = *window;
+    }
+    if (payload.size() != got.window.bytes.size()) {
+        return invalid("windows: the payload is longer than its window");
+    }
+    return got;
 }
 
 }  // namespace shearwater::wire

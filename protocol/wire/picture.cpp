@@ -19,12 +19,13 @@ Parsed<std::vector<std::byte>> inflated(std::span<const std::byte> bytes, std::s
 
 }  // namespace
 
-Message frame_message(pb::Frame frame, const image::Image<image::Rgba8>& picture, bool deflate) {
+Message frame_message(pb::Frame frame, const image::Image<image::Rgba8>& picture, bool deflate,
+                      base::Workers& workers) {
     frame.set_width(static_cast<std::uint32_t>(picture.width()));
     frame.set_height(static_cast<std::uint32_t>(picture.height()));
     frame.set_encoding(pb::ENCODING_RLE);
     base::Buffer coded(image::rle_bound(picture.pixels().size()));
-    coded.resize(image::encode_rle(picture.pixels(), coded));
+    coded.resize(image::encode_rle(picture.pixels(), coded, workers));
     if (deflate) {
         const std::vector<std::byte> smaller = image::deflate(coded);
         if (smaller.size() < coded.size()) {
@@ -40,7 +41,7 @@ Parsed<image::Image<image::Rgba8>> picture_from(const Message& message, const vi
     if (std::cmp_not_equal(frame.width(), asked.width) || std::cmp_not_equal(frame.height(), asked.height)) {
         return Fault{pb::REASON_INVALID, "frame: not of the size asked for"};
     }
-    image::Image<image::Rgba8> picture(asked.width, asked.height);
+    image::Image<image::Rgba8> picture(asked.width, asked.height, image::Unfilled());
     std::span<const std::byte> code;
     if (message.payload) {
         code = *message.payload;

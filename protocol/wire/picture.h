@@ -1,6 +1,7 @@
 #pragma once
 // Finished pictures and the frames they travel to a client in.
 
+#include "common/base/workers.h"
 #include "common/image/image.h"
 #include "common/view/camera.h"
 #include "protocol/wire/header.h"
@@ -10,7 +11,8 @@ namespace shearwater::wire {
 
 // Puts the picture behind a frame, whose size and encoding it fills in: run lengths, and deflate where
 // that was asked for and pays.
-Message frame_message(pb::Frame frame, const image::Image<image::Rgba8>& picture, bool deflate);
+Message frame_message(pb::Frame frame, const image::Image<image::Rgba8>& picture, bool deflate,
+                      base::Workers& workers);
 
 // The picture of a Frame, which must be of the size that was asked for: memory goes by that size, not
 // by the sender's word.

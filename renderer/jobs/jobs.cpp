@@ -13,6 +13,14 @@
 
 namespace shearwater::jobs {
 
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace
+
 Jobs::Jobs(int threads, std::function<void(leaf::JobEvent)> tell)
     : tell_(std::move(tell)), loaders_(threads), drawers_(threads) {}
 
@@ -169,20 +177,36 @@ void Jobs::draw(const leaf::Draw& job, const std::stop_token& stop) {
     const auto begin = std::chrono::steady_clock::now();
     Drawable* const from = drawable(job);
     base::check(from != nullptr, "what is to be drawn is there");
-    shear::RenderStats stats;
-    node::Merged drawn{.frame = job.frame, .windows = {}, .missing = {}, .stats = {}};
+    const std::vector<view::Band> bands = view::bands_of(job.factorisation);
+    double coding = 0;
+    wire::Message last = wire::windows_message(job.frame, bands.size(), {});
+    const auto on_bands = [&](const shear::DrawnBands& drawn) {
+        const auto coding_begin = std::chrono::steady_clock::now();
+        wire::Message message =
+            wire::windows_message(job.frame, drawn.bands, image::encode({&drawn.window, 1}));
+        coding += seconds_since(coding_begin);
+        if (drawn.bands == bands.size()) {
+            last = std::move(message);  // what the frame cost goes with it
+        } else {
+            tell_(leaf::Drawn{job.job, std::move(message), false});
+        }
+    };
     const auto& classification = from->classifier.classify(from->volume, job.tf, drawers_);
-    drawn.windows = shear::render(from->volume, classification, job.factorisation, drawers_, &stats, stop);
+    const shear::RenderStats stats =
+        shear::render_bands(from->volume, classification, job.factorisation, bands, drawers_, on_bands, stop);
     if (stop.stop_requested()) {
         return;
     }
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-    drawn.stats.set_render_seconds(spent.count());
-    drawn.stats.set_samples(stats.samples);
-    drawn.stats.set_bricks_total(stats.bricks_total);
-    drawn.stats.set_bricks_empty(stats.bricks_empty);
-    drawn.stats.set_bricks_rendered(stats.bricks_rendered);
-    tell_(leaf::Drawn{job.job, node::to_message(drawn)});
+    node::Account account;
+    // One of the threads codes at a time, and the others render.
+    account.stats.set_render_seconds(seconds_since(begin) - coding / drawers_.threads());
+    account.stats.set_composite_seconds(coding);
+    account.stats.set_samples(stats.samples);
+    account.stats.set_bricks_total(stats.bricks_total);
+    account.stats.set_bricks_empty(stats.bricks_empty);
+    account.stats.set_bricks_rendered(stats.bricks_rendered);
+    node::put(account, std::get<wire::pb::Windows>(last.body));
+    tell_(leaf::Drawn{job.job, std::move(last), true});
     if (begin - memory_told_ > std::chrono::milliseconds(500)) {
         memory_told_ = begin;
         tell_memory();

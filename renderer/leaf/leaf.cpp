@@ -83,9 +83,11 @@ Effects Leaf::handle(JobEvent event, wire::Time now) {
         }
     } else if (auto* drawn = std::get_if<Drawn>(&event)) {
         if (drawn->job == draw_job_) {
-            draw_job_ = 0;
             member_.tell_parent(std::move(drawn->windows), effects.net);
-            draw_next(effects);
+            if (drawn->last) {
+                draw_job_ = 0;
+                draw_next(effects);
+            }
         }
     } else if (auto* wanted = std::get_if<VoxelsWanted>(&event)) {
         if (wanted->job == load_job_) {
@@ -237,14 +239,14 @@ void Leaf::on_render(wire::LinkId link, const pb::Render& render, Effects& effec
         wanted.sketch = *limits;
     }
     if (!can_draw(wanted)) {
-        send_absent(wanted.frame, effects);
+        send_absent(wanted.frame, bands_of(wanted.factorisation).size(), effects);
         return;
     }
     if (!wanted.sketch) {
         sketched_.reset();
     }
     if (waiting_.size() >= max_waiting) {
-        send_absent(waiting_.front().frame, effects);
+        send_absent(waiting_.front().frame, bands_of(waiting_.front().factorisation).size(), effects);
         waiting_.pop_front();
     }
     waiting_.push_back(std::move(wanted));
@@ -262,11 +264,11 @@ bool Leaf::can_draw(const Waiting& wanted) const {
 // What they were to be drawn from is about to go.
 void Leaf::give_up_frames(Effects& effects) {
     for (const Waiting& waiting : std::exchange(waiting_, {})) {
-        send_absent(waiting.frame, effects);
+        send_absent(waiting.frame, bands_of(waiting.factorisation).size(), effects);
     }
     if (draw_job_ != 0) {
         effects.jobs.emplace_back(Stop{draw_job_});
-        send_absent(drawing_, effects);
+        send_absent(drawing_, drawing_bands_, effects);
         draw_job_ = 0;
     }
 }
@@ -279,6 +281,7 @@ void Leaf::draw_next(Effects& effects) {
     waiting_.pop_front();
     draw_job_ = ++last_job_;
     drawing_ = next.frame;
+    drawing_bands_ = bands_of(next.factorisation).size();
     effects.jobs.emplace_back(Draw{draw_job_, next.frame, std::move(next.factorisation), std::move(next.tf),
                                    std::move(next.sketch)});
 }
@@ -292,12 +295,14 @@ void Leaf::on_cancel(std::uint64_t frame, Effects& effects) {
     }
 }
 
-void Leaf::send_absent(std::uint64_t frame, Effects& effects) const {
-    node::Merged nothing{.frame = frame, .windows = {}, .missing = {}, .stats = {}};
+void Leaf::send_absent(std::uint64_t frame, std::size_t bands, Effects& effects) const {
+    wire::Message nothing = wire::windows_message(frame, bands, {});
+    node::Account account;
     if (share_) {
-        nothing.missing.push_back({share_->place, share_->box});
+        account.missing.push_back({share_->place, share_->box});
     }
-    member_.tell_parent(node::to_message(nothing), effects.net);
+    node::put(account, std::get<pb::Windows>(nothing.body));
+    member_.tell_parent(std::move(nothing), effects.net);
 }
 
 void Leaf::send_histogram(const std::optional<volume::Histogram>& histogram, bool of_sketch,

@@ -82,9 +82,10 @@ struct Loaded {
     Job job;
     base::Status status;
 };
-struct Drawn {
+struct Drawn {  // some of the frame's bands
     Job job;
     wire::Message windows;  // pb::Windows
+    bool last;              // the frame is done
 };
 // A job that cannot see the cube's file asks for a part of it over the tree, one at a time.
 struct VoxelsWanted {
@@ -140,7 +141,8 @@ class Leaf {
     bool can_draw(const Waiting& wanted) const;
     void give_up_frames(Effects& effects);
     void draw_next(Effects& effects);
-    void send_absent(std::uint64_t frame, Effects& effects) const;
+    // Of a frame of so many bands.
+    void send_absent(std::uint64_t frame, std::size_t bands, Effects& effects) const;
     void send_histogram(const std::optional<volume::Histogram>& histogram, bool of_sketch, Effects& effects);
     void ask_for_voxels(Effects& effects) const;
     void enter(wire::pb::Phase phase, Effects& effects);
@@ -163,6 +165,7 @@ class Leaf {
     Job load_job_ = 0;  // counting or loading; 0: none
     Job draw_job_ = 0;
     std::uint64_t drawing_ = 0;  // the frame of draw_job_
+    std::size_t drawing_bands_ = 0;
     std::deque<Waiting> waiting_;
     std::optional<VoxelsWanted> wanted_;
     std::uint64_t request_ = 0;  // of wanted_

@@ -1,9 +1,12 @@
 #include "renderer/shear/render.h"
 
+#include <algorithm>
 #include <atomic>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <numeric>
+#include <optional>
 
 #include "renderer/shear/face_plan.h"
 #include "renderer/shear/tile.h"
@@ -51,26 +54,122 @@ class IdleTiles {
     std::vector<std::unique_ptr<Tile<Code>>> tiles_;
 };
 
+// Tells of bands in their order, whichever thread it is that draws the last of one.
+class InOrder {
+  public:
+    InOrder(std::size_t bands, const OnBands& on_bands) : windows_(bands), on_bands_(on_bands) {}
+
+    void put(std::size_t band, Window window) {
+        const std::lock_guard lock(mutex_);
+        windows_[band] = std::move(window);
+    }
+
+    void tell() {
+        std::unique_lock lock(mutex_);
+        if (telling_) {
+            return;  // that thread goes on to this one
+        }
+        telling_ = true;
+        while (told_ < windows_.size() && windows_[told_]) {
+            DrawnBands next = next_of();
+            lock.unlock();
+            on_bands_(std::move(next));
+            lock.lock();
+        }
+        telling_ = false;
+    }
+
+  private:
+    // Those without pixels go with the next that has some, if it is there.
+    DrawnBands next_of() {
+        DrawnBands next;
+        while (told_ < windows_.size() && windows_[told_] && next.window.rect.empty()) {
+            next.window = std::move(*windows_[told_++]);
+        }
+        next.bands = told_;
+        return next;
+    }
+
+    std::vector<std::optional<Window>> windows_;
+    const OnBands& on_bands_;
+    std::size_t told_ = 0;
+    bool telling_ = false;
+    std::mutex mutex_;
+};
+
+// A band of a face, as far as the sub-volume reaches.
+struct Part {
+    std::size_t band;
+    Rect rect;  // turned, as tiles are
+    int across;
+    std::int64_t first_tile;  // of the face's
+    std::atomic<std::int64_t> tiles_left;
+    std::once_flag begun;
+    Window window;
+};
+
 template <class Code>
-void render_window(Frame& frame, const FacePlan& plan, Window& window, base::Workers& workers,
-                   const std::stop_token& stop) {
-    const Rect& whole = plan.window();
-    const int across = (whole.width() + Tile<Code>::width - 1) / Tile<Code>::width;
-    const int down = (whole.height() + Tile<Code>::height - 1) / Tile<Code>::height;
-    IdleTiles<Code> idle;
-    const auto paint = [&](std::int64_t n) {
-        const int x = whole.x0 + static_cast<int>(n % across) * Tile<Code>::width;
-        const int y = whole.y0 + static_cast<int>(n / across) * Tile<Code>::height;
-        auto tile = idle.take([&] {
-            return std::make_unique<Tile<Code>>(frame.volume, frame.classification, plan, frame.met);
+class FaceRenderer {
+  public:
+    FaceRenderer(Frame& frame, const FacePlan& plan, InOrder& order)
+        : frame_(frame), plan_(plan), order_(order) {}
+
+    void add(std::size_t band, const view::Band& cut) {
+        const Rect rect = intersection(plan_.window(), plan_.turn(cut.rect));
+        if (rect.empty()) {
+            order_.put(band, {});
+            return;
+        }
+        Part& part = parts_.emplace_back();
+        part.band = band;
+        part.rect = rect;
+        part.across = (rect.width() + Tile<Code>::width - 1) / Tile<Code>::width;
+        const int down = (rect.height() + Tile<Code>::height - 1) / Tile<Code>::height;
+        part.first_tile = tiles_;
+        part.tiles_left = std::int64_t{part.across} * down;
+        part.window.face = cut.face;
+        part.window.rect = plan_.turn(rect);
+        tiles_ += part.tiles_left;
+    }
+
+    void render(base::Workers& workers, const std::stop_token& stop) {
+        order_.tell();  // where there is nothing
+        workers.for_each(
+            tiles_, [this](std::int64_t n) { paint(n); }, stop);
+        frame_.samples += idle_.samples();
+    }
+
+  private:
+    void paint(std::int64_t n) {
+        const auto after = std::ranges::upper_bound(parts_, n, {}, &Part::first_tile);
+        Part& part = *std::prev(after);
+        std::call_once(part.begun, [&part] {
+            const Rect& rect = part.window.rect;
+            part.window.pixels = image::Image<image::RgbaF>(rect.width(), rect.height(), image::Unfilled());
         });
-        tile->render(intersection(whole, {x, y, x + Tile<Code>::width, y + Tile<Code>::height}));
-        tile->store(window);
-        idle.give_back(std::move(tile));
-    };
-    workers.for_each(std::int64_t{across} * down, paint, stop);
-    frame.samples += idle.samples();
-}
+        const int x =
+            part.rect.x0 + static_cast<int>((n - part.first_tile) % part.across) * Tile<Code>::width;
+        const int y =
+            part.rect.y0 + static_cast<int>((n - part.first_tile) / part.across) * Tile<Code>::height;
+        auto tile = idle_.take([this] {
+            return std::make_unique<Tile<Code>>(frame_.volume, frame_.classification, plan_, frame_.met);
+        });
+        tile->render(intersection(part.rect, {x, y, x + Tile<Code>::width, y + Tile<Code>::height}));
+        tile->store(part.window);
+        idle_.give_back(std::move(tile));
+        if (part.tiles_left.fetch_sub(1) == 1) {
+            order_.put(part.band, std::move(part.window));
+            order_.tell();
+        }
+    }
+
+    Frame& frame_;
+    const FacePlan& plan_;
+    InOrder& order_;
+    IdleTiles<Code> idle_;
+    std::deque<Part> parts_;
+    std::int64_t tiles_ = 0;
+};
 
 RenderStats count(const Frame& frame) {
     RenderStats stats{.samples = frame.samples, .bricks_total = frame.met.size()};
@@ -81,31 +180,54 @@ RenderStats count(const Frame& frame) {
     return stats;
 }
 
+template <class Code>
+void render_faces(Frame& frame, const view::Factorisation& factorisation, std::span<const view::Band> bands,
+                  base::Workers& workers, const OnBands& on_bands, const std::stop_token& stop) {
+    InOrder order(bands.size(), on_bands);
+    for (std::size_t band = 0; band < bands.size() && !stop.stop_requested();) {
+        const int face = bands[band].face;
+        const FacePlan plan(frame.volume, factorisation, face);
+        FaceRenderer<Code> renderer(frame, plan, order);
+        for (; band < bands.size() && bands[band].face == face; ++band) {
+            renderer.add(band, bands[band]);
+        }
+        renderer.render(workers, stop);
+    }
+}
+
 }  // namespace
 
-std::vector<Window> render(const BrickVolume& volume, const Classification& classification,
-                           const view::Factorisation& factorisation, base::Workers& workers,
-                           RenderStats* stats, const std::stop_token& stop) {
+RenderStats render_bands(const BrickVolume& volume, const Classification& classification,
+                         const view::Factorisation& factorisation, std::span<const view::Band> bands,
+                         base::Workers& workers, const OnBands& on_bands, const std::stop_token& stop) {
     base::check(factorisation.lattice.n == volume.cube(), "a factorisation is that of the volume's cube");
     base::check(factorisation.level() < volume.levels(), "a factorisation keeps to the cube's levels");
     Frame frame{.volume = volume,
                 .classification = classification,
                 .met = BricksMet(volume.bricks().ranges().size())};
-    std::vector<Window> windows;
-    for (std::size_t face = 0; face < factorisation.faces.size() && !stop.stop_requested(); ++face) {
-        const FacePlan plan(volume, factorisation, static_cast<int>(face));
-        const Rect rect = plan.turn(plan.window());
-        if (rect.empty()) {
-            continue;
-        }
-        windows.push_back({.face = static_cast<int>(face),
-                           .rect = rect,
-                           .pixels = image::Image<image::RgbaF>(rect.width(), rect.height())});
-        volume.mapping().bits == 8 ? render_window<std::uint8_t>(frame, plan, windows.back(), workers, stop)
-                                   : render_window<std::uint16_t>(frame, plan, windows.back(), workers, stop);
+    volume.mapping().bits == 8
+        ? render_faces<std::uint8_t>(frame, factorisation, bands, workers, on_bands, stop)
+        : render_faces<std::uint16_t>(frame, factorisation, bands, workers, on_bands, stop);
+    return count(frame);
+}
+
+std::vector<Window> render(const BrickVolume& volume, const Classification& classification,
+                           const view::Factorisation& factorisation, base::Workers& workers,
+                           RenderStats* stats, const std::stop_token& stop) {
+    std::vector<view::Band> whole;
+    for (const view::Face& face : factorisation.faces) {
+        whole.push_back({static_cast<int>(whole.size()), {0, 0, face.width, face.height}});
     }
+    std::vector<Window> windows;
+    const auto keep = [&](DrawnBands drawn) {
+        if (!drawn.window.rect.empty()) {
+            windows.push_back(std::move(drawn.window));
+        }
+    };
+    const RenderStats counted =
+        render_bands(volume, classification, factorisation, whole, workers, keep, stop);
     if (stats != nullptr) {
-        *stats = count(frame);
+        *stats = counted;
     }
     return windows;
 }

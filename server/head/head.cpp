@@ -178,7 +178,7 @@ void Head::on_link_down(wire::LinkId link, Effects& effects) {
         std::erase_if(frames_, [&](const auto& entry) {
             const bool gone = entry.second.client == link;
             if (gone) {
-                branch_.cancel(entry.first, effects.net);
+                give_up(entry.first, entry.second, effects);
             }
             return gone;
         });
@@ -278,7 +278,7 @@ void Head::give_up_frames(Session& session, const Which& which, Effects& effects
         const auto& [number, frame] = entry;
         const bool is_left = !frame.merged && which(frame);
         if (is_left) {
-            branch_.cancel(number, effects.net);
+            give_up(number, frame, effects);
             std::erase(session.in_flight, number);
         }
         return is_left;
@@ -318,6 +318,13 @@ std::optional<volume::Mapping> Head::sketch_for(const wire::View& view) const {
     return mapping_ ? mapping_ : sketch_;
 }
 
+void Head::give_up(std::uint64_t number, const FrameInWork& frame, Effects& effects) {
+    branch_.cancel(number, effects.net);
+    if (frame.begun && !frame.merged) {
+        effects.jobs.emplace_back(GiveUp{number});
+    }
+}
+
 void Head::begin_frames(wire::LinkId client, Session& session, wire::Time now, Effects& effects) {
     while (session.wanted && session.in_flight.size() < frames_in_flight) {
         const std::optional<volume::Mapping> sketch = sketch_for(*session.wanted);
@@ -352,10 +359,17 @@ void Head::collect(wire::Time now, Effects& effects) {
     settle_sketch(now, effects);
     settle_mapping(effects);
     for (node::MergeJob& job : branch_.take_complete()) {
-        if (const auto frame = frames_.find(job.frame); frame != frames_.end()) {
-            frame->second.merged = true;
-            const FrameInWork& work = frame->second;
-            effects.jobs.emplace_back(Finish{std::move(job), work.view, work.asked, work.sketch});
+        const auto found = frames_.find(job.frame->number);
+        if (found == frames_.end()) {
+            continue;
+        }
+        FrameInWork& frame = found->second;
+        frame.begun = true;
+        if (job.last()) {
+            frame.merged = true;
+            effects.jobs.emplace_back(Finish{std::move(job), frame.view, frame.asked, frame.sketch});
+        } else {
+            effects.jobs.emplace_back(Lay{std::move(job)});
         }
     }
 }

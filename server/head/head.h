@@ -30,17 +30,25 @@ struct Limits {
 
 // ---- jobs carried out away from the network's thread ----
 
-// The last merge, the warp and the coding of a frame.
+// Of a frame: all merges but the last, one by one; then
+struct Lay {
+    node::MergeJob merge;
+};
+// the last, the warp and the coding;
 struct Finish {
     node::MergeJob merge;
     wire::View view;
     wire::Time asked;     // when the view arrived
     bool sketch = false;  // it is a picture of the sketch
 };
+// or an end without a picture.
+struct GiveUp {
+    std::uint64_t frame;
+};
 struct ReadVoxels {
     wire::pb::NeedVoxels need;  // of a box inside the cube
 };
-using Job = std::variant<Finish, ReadVoxels>;
+using Job = std::variant<Lay, Finish, GiveUp, ReadVoxels>;
 
 struct Finished {
     std::uint64_t number;
@@ -88,6 +96,7 @@ class Head {
         wire::View view;
         wire::Time asked;
         bool sketch = false;  // it is drawn from the sketch
+        bool begun = false;   // some of it is laid
         bool merged = false;  // it is being finished: only the warp is to come
     };
 
@@ -113,6 +122,7 @@ class Head {
     // The mapping to draw the sketch by, where that is what a view is drawn from now.
     std::optional<volume::Mapping> sketch_for(const wire::View& view) const;
     void begin_serving(wire::Time now, Effects& effects);
+    void give_up(std::uint64_t number, const FrameInWork& frame, Effects& effects);
     void begin_frames(wire::LinkId client, Session& session, wire::Time now, Effects& effects);
     void collect(wire::Time now, Effects& effects);
     static void fault(wire::LinkId link, const wire::Fault& fault, Effects& effects);

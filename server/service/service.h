@@ -4,10 +4,11 @@
 
 #include <boost/asio/thread_pool.hpp>
 #include <functional>
+#include <map>
 #include <memory>
-#include <optional>
 
 #include "common/base/workers.h"
+#include "common/image/canvas.h"
 #include "common/volume/source.h"
 #include "server/head/head.h"
 
@@ -24,12 +25,17 @@ class Service {
     void perform(head::Job job);
 
   private:
-    void finish(const head::Finish& job);
+    image::Canvas& lay(node::MergeJob& merge);
+    void done_with(std::uint64_t frame);
+    void finish(head::Finish& job);
     void read_voxels(const head::ReadVoxels& job);
 
     std::unique_ptr<volume::VoxelSource> cube_;  // touched by the reading thread only
     std::function<void(head::JobEvent)> tell_;
     base::Workers workers_;
+    // Touched by the frames' thread only.
+    std::map<std::uint64_t, image::Canvas> canvases_;  // by frame
+    image::Canvas spare_;                              // for the memory it has
     boost::asio::thread_pool frames_{1};
     boost::asio::thread_pool reading_{1};
 };

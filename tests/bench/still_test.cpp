@@ -47,12 +47,14 @@ TEST(Still, TurnsFromPictureToPicture) {
         EXPECT_EQ(view->camera, *expected.camera(lattice));
         EXPECT_FALSE(still.done());
         EXPECT_LT(still.progress(), 1);
+        base::Workers workers(1);
         pb::Frame frame;
         frame.set_number(static_cast<std::uint64_t>(i) + 1);
         frame.set_revision(view->revision);
-        event = wire::Received{.link = wire::LinkId{1},
-                               .message = wire::frame_message(
-                                   frame, image::Image<image::Rgba8>(size.width, size.height), false)};
+        event =
+            wire::Received{.link = wire::LinkId{1},
+                           .message = wire::frame_message(
+                               frame, image::Image<image::Rgba8>(size.width, size.height), false, workers)};
     }
     still.handle(event, now);
     EXPECT_TRUE(still.done());

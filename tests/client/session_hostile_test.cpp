@@ -94,10 +94,11 @@ TEST_F(SessionTest, DeflatedFramesAreRead) {
     want();
     auto f = frame(1);
     f.set_encoding(pb::ENCODING_RLE_DEFLATE);
-    receive(f, image::deflate(code(picture(32, 16))));
+    const auto wanted = picture(32, 16);
+    receive(f, image::deflate(code(wanted)));
     const auto decoded = session_.take_picture();
     ASSERT_TRUE(decoded);
-    EXPECT_TRUE(std::ranges::equal(decoded->pixels.pixels(), picture(32, 16).pixels()));
+    EXPECT_TRUE(std::ranges::equal(decoded->pixels.pixels(), wanted.pixels()));
 }
 
 TEST_F(SessionTest, HostileDescriptionsTreesAndTypesEndTheLink) {

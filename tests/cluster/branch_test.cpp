@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/image/over_windows.h"
+
 namespace shearwater::node {
 namespace {
 
@@ -14,9 +16,10 @@ using namespace std::chrono_literals;
 constexpr std::uint64_t epoch = 7;
 const wire::Time start{};
 
-view::Factorisation factorisation() {
+// Of one band, or of several where it is asked for a large picture.
+view::Factorisation factorisation(int side = 32) {
     const view::Lattice lattice{.n = {9, 9, 9}, .spacing = {1, 1, 1}};
-    return view::factorise(view::camera_on({}, lattice), {.width = 32, .height = 32}, lattice, {1});
+    return view::factorise(view::camera_on({}, lattice), {.width = side, .height = side}, lattice, {1});
 }
 
 pb::Render render(std::uint64_t frame) {
@@ -32,8 +35,17 @@ pb::Adopt adopt(std::uint32_t place, std::uint64_t of_epoch = epoch) {
     return message;
 }
 
-wire::Message empty_windows(std::uint64_t frame) {
-    return wire::windows_message(frame, {});
+wire::Message empty_windows(std::uint64_t frame, std::size_t bands = 1) {
+    return wire::windows_message(frame, bands, {});
+}
+
+// One pixel in the corner of the last of the bands.
+wire::Message pixel(const view::Band& band, std::size_t bands, float alpha) {
+    image::Window window{.face = band.face,
+                         .rect = {band.rect.x0, band.rect.y0, band.rect.x0 + 1, band.rect.y0 + 1},
+                         .pixels = {1, 1}};
+    window.pixels.at(0, 0).a = alpha;
+    return wire::windows_message(1, bands, image::encode({&window, 1}));
 }
 
 template <class T>
@@ -69,9 +81,9 @@ TEST_F(BranchTest, AFrameIsCompleteWhenEveryChildHasAnswered) {
     branch_.receive(left_, empty_windows(1), effects_);
     const auto complete = branch_.take_complete();
     ASSERT_EQ(complete.size(), 1U);
-    EXPECT_EQ(complete[0].frame, 1U);
-    EXPECT_TRUE(complete[0].missing.empty());
-    EXPECT_TRUE(complete[0].parts[0].present && complete[0].parts[1].present);
+    EXPECT_EQ(complete[0].frame->number, 1U);
+    EXPECT_TRUE(complete[0].last());
+    EXPECT_TRUE(complete[0].account.missing.empty());
 }
 
 TEST_F(BranchTest, FramesOverlapAndMayCompleteOutOfOrder) {
@@ -80,9 +92,9 @@ TEST_F(BranchTest, FramesOverlapAndMayCompleteOutOfOrder) {
     branch_.receive(left_, empty_windows(2), effects_);
     branch_.receive(right_, empty_windows(2), effects_);
     branch_.receive(left_, empty_windows(1), effects_);
-    EXPECT_EQ(branch_.take_complete().front().frame, 2U);
+    EXPECT_EQ(branch_.take_complete().front().frame->number, 2U);
     branch_.receive(right_, empty_windows(1), effects_);
-    EXPECT_EQ(branch_.take_complete().front().frame, 1U);
+    EXPECT_EQ(branch_.take_complete().front().frame->number, 1U);
 }
 
 TEST_F(BranchTest, AChildThatDiesIsMissingWithItsBox) {
@@ -91,17 +103,17 @@ TEST_F(BranchTest, AChildThatDiesIsMissingWithItsBox) {
     branch_.link_down(right_);
     auto complete = branch_.take_complete();
     ASSERT_EQ(complete.size(), 1U);
-    ASSERT_EQ(complete[0].missing.size(), 1U);
-    EXPECT_EQ(complete[0].missing[0], (Missing{4, {{4, 0, 0}, {8, 8, 8}}}));
+    ASSERT_EQ(complete[0].account.missing.size(), 1U);
+    EXPECT_EQ(complete[0].account.missing[0], (Missing{4, {{4, 0, 0}, {8, 8, 8}}}));
     // And from the start in the next frame, until it is back.
     branch_.begin(factorisation(), render(2), start, effects_);
     branch_.receive(left_, empty_windows(2), effects_);
-    EXPECT_EQ(branch_.take_complete()[0].missing.size(), 1U);
+    EXPECT_EQ(branch_.take_complete()[0].account.missing.size(), 1U);
     EXPECT_EQ(branch_.adopt(LinkId{103}, adopt(4), effects_), 4);
     branch_.begin(factorisation(), render(3), start, effects_);
     branch_.receive(left_, empty_windows(3), effects_);
     branch_.receive(LinkId{103}, empty_windows(3), effects_);
-    EXPECT_TRUE(branch_.take_complete()[0].missing.empty());
+    EXPECT_TRUE(branch_.take_complete()[0].account.missing.empty());
 }
 
 TEST_F(BranchTest, WhatIsMissingBelowAChildIsMissingHere) {
@@ -113,8 +125,8 @@ TEST_F(BranchTest, WhatIsMissingBelowAChildIsMissingHere) {
     branch_.receive(left_, windows, effects_);
     branch_.receive(right_, empty_windows(1), effects_);
     const auto complete = branch_.take_complete();
-    ASSERT_EQ(complete[0].missing.size(), 1U);
-    EXPECT_EQ(complete[0].missing[0].place, 9);
+    ASSERT_EQ(complete[0].account.missing.size(), 1U);
+    EXPECT_EQ(complete[0].account.missing[0].place, 9);
 }
 
 TEST_F(BranchTest, ASilentChildIsGivenUpInTheEnd) {
@@ -128,6 +140,115 @@ TEST_F(BranchTest, ASilentChildIsGivenUpInTheEnd) {
     effects_.clear();
     branch_.receive(right_, empty_windows(1), effects_);
     EXPECT_TRUE(effects_.empty());
+}
+
+// What all children have given, or will not, goes on; the rest waits.
+struct BandsTest : BranchTest {
+    void SetUp() override {
+        BranchTest::SetUp();
+        bands_ = view::bands_of(f_);
+        ASSERT_GE(bands_.size(), 4U);
+        branch_.begin(f_, render(1), start, effects_);
+        effects_.clear();
+    }
+    void give(LinkId link, std::size_t bands, float alpha) {
+        branch_.receive(link, pixel(bands_[bands - 1], bands, alpha), effects_);
+    }
+    void expect_end(const wire::Message& message, std::string_view what) {
+        EXPECT_TRUE(branch_.is_child(left_));
+        branch_.receive(left_, message, effects_);
+        const auto closed = of<wire::CloseLink>(effects_);
+        ASSERT_EQ(closed.size(), 1U);
+        EXPECT_EQ(closed[0].link, left_);
+        EXPECT_EQ(closed[0].reason, pb::REASON_INVALID);
+        EXPECT_NE(closed[0].text.find(what), std::string::npos) << closed[0].text;
+        EXPECT_FALSE(branch_.is_child(left_));
+    }
+
+    view::Factorisation f_ = factorisation(400);
+    std::vector<view::Band> bands_;
+};
+
+TEST_F(BandsTest, GoOnOnceEveryChildHasGivenThem) {
+    const std::size_t all = bands_.size();
+    give(left_, 1, 0.25F);
+    give(left_, 2, 0.25F);
+    EXPECT_TRUE(branch_.take_complete().empty());
+    give(right_, 1, 0.5F);
+    auto complete = branch_.take_complete();
+    ASSERT_EQ(complete.size(), 1U);
+    EXPECT_EQ(complete[0].first, 0U);
+    EXPECT_EQ(complete[0].end, 1U);
+    EXPECT_FALSE(complete[0].last());
+    // Front to back.
+    const bool left_first =
+        view::visibility_order(f_, {{{0, 0, 0}, {4, 8, 8}}, {{4, 0, 0}, {8, 8, 8}}}).front() == 0;
+    ASSERT_EQ(complete[0].windows.size(), 2U);
+    const auto nearest = image::merge_front_to_back(std::span(complete[0].windows).first(1));
+    EXPECT_NEAR(nearest.at(0).pixels.at(0, 0).a, left_first ? 0.25 : 0.5, 1e-4);
+    // Bands that come together go on one by one.
+    give(right_, 3, 0.5F);
+    complete = branch_.take_complete();
+    ASSERT_EQ(complete.size(), 1U);
+    EXPECT_EQ(complete[0].windows.size(), 1U) << "the right one said nothing of the second";
+    branch_.receive(left_, empty_windows(1, all), effects_);
+    branch_.receive(right_, empty_windows(1, all), effects_);
+    complete = branch_.take_complete();
+    ASSERT_EQ(complete.size(), 2U);
+    EXPECT_EQ(complete[0].end, 3U);
+    EXPECT_FALSE(complete[0].last());
+    EXPECT_TRUE(complete[1].last()) << "the others have nothing, and go together";
+    EXPECT_TRUE(complete[1].windows.empty());
+    EXPECT_FALSE(branch_.pending(1));
+}
+
+TEST_F(BandsTest, OfAChildThatDiesGoOnAndItIsMissing) {
+    give(left_, 1, 0.25F);
+    give(left_, 2, 0.25F);
+    give(right_, 1, 0.5F);
+    EXPECT_EQ(branch_.take_complete().size(), 1U);
+    branch_.link_down(left_);
+    EXPECT_TRUE(branch_.take_complete().empty()) << "the right one still draws the second";
+    branch_.receive(right_, empty_windows(1, bands_.size()), effects_);
+    const auto complete = branch_.take_complete();
+    ASSERT_EQ(complete.size(), 2U);
+    EXPECT_EQ(complete[0].windows.size(), 1U) << "what it gave before counts";
+    EXPECT_TRUE(complete[1].last());
+    ASSERT_EQ(complete[1].account.missing.size(), 1U);
+    EXPECT_EQ(complete[1].account.missing[0].place, 3);
+}
+
+TEST_F(BandsTest, OfACancelledFrameAreForgotten) {
+    give(left_, 1, 0.25F);
+    branch_.cancel(1, effects_);
+    effects_.clear();
+    give(right_, 1, 0.25F);
+    give(left_, 1, 0.25F);
+    EXPECT_TRUE(effects_.empty());
+    EXPECT_TRUE(branch_.take_complete().empty());
+}
+
+TEST_F(BandsTest, GivenTwiceEndTheLink) {
+    give(left_, 2, 0.25F);
+    expect_end(pixel(bands_[1], 2, 0.25F), "windows.bands: 2 of");
+}
+
+TEST_F(BandsTest, OutOfOrderEndTheLink) {
+    give(left_, 2, 0.25F);
+    expect_end(pixel(bands_[0], 1, 0.25F), "windows.bands: 1 of");
+}
+
+TEST_F(BandsTest, BeyondTheLastEndTheLink) {
+    expect_end(empty_windows(1, bands_.size() + 1), "windows.bands: ");
+}
+
+TEST_F(BandsTest, AfterTheLastEndTheLink) {
+    branch_.receive(left_, empty_windows(1, bands_.size()), effects_);
+    expect_end(empty_windows(1, bands_.size()), "all of the frame's bands were known");
+}
+
+TEST_F(BandsTest, WithAnothersWindowEndTheLink) {
+    expect_end(pixel(bands_[2], 2, 0.25F), "leaves its band");
 }
 
 TEST_F(BranchTest, ACancelGoesToThoseStillAtWork) {

@@ -55,11 +55,17 @@ class RefinementTest : public testing::Test {
     void receive(wire::LinkId link, T body) {
         take(head_.handle(wire::Received{link, wire::message(std::move(body))}, now_));
     }
+    // They have drawn some of it.
+    void draw_some(std::uint64_t frame, std::size_t bands) {
+        for (const wire::LinkId child : children_) {
+            receive(child, std::get<pb::Windows>(wire::windows_message(frame, bands, {}).body));
+        }
+    }
     void ask(Quality quality, wire::LinkId from = client) {
         wire::View view;
         view.revision = ++revision_;
         view.camera = view::camera_on({}, {.n = n, .spacing = {1, 1, 1}});
-        view.size = {.width = 24, .height = 20};
+        view.size = size_;
         view.tf = view::default_transfer_function();
         view.quality = quality;
         receive(from, wire::to_wire(view));
@@ -69,6 +75,7 @@ class RefinementTest : public testing::Test {
         for (const wire::LinkId child : children_) {
             pb::Windows windows;
             windows.set_frame(frame);
+            windows.set_bands(static_cast<std::uint32_t>(bands_));
             receive(child, windows);
         }
     }
@@ -79,6 +86,11 @@ class RefinementTest : public testing::Test {
     }
     // Sorts what the head did; renderers are told the same, so the first stands for both.
     void take(const Effects& effects) {
+        for (const Job& job : effects.jobs) {
+            if (const auto* given_up = std::get_if<GiveUp>(&job)) {
+                given_up_.push_back(given_up->frame);
+            }
+        }
         for (const wire::NetEffect& effect : effects.net) {
             const auto* send = std::get_if<wire::Send>(&effect);
             ASSERT_NE(send, nullptr) << "a link was closed";
@@ -88,6 +100,7 @@ class RefinementTest : public testing::Test {
                 continue;
             } else if (const auto* render = std::get_if<pb::Render>(&send->message.body)) {
                 begun_.push_back(render->frame());
+                bands_ = view::bands_of(*wire::factorisation_from(render->factorisation())).size();
             } else if (const auto* cancel = std::get_if<pb::Cancel>(&send->message.body)) {
                 cancelled_.push_back(cancel->frame());
             }
@@ -102,7 +115,9 @@ class RefinementTest : public testing::Test {
     Head head_{roster(), {.range = volume::Limits{.lo = 0, .hi = 1}}};
     std::vector<wire::LinkId> children_;
     std::uint64_t revision_ = 0;
-    std::vector<std::uint64_t> begun_, cancelled_, sent_;
+    view::ImageSize size_{.width = 24, .height = 20};
+    std::size_t bands_ = 0;  // of the newest frame
+    std::vector<std::uint64_t> begun_, cancelled_, sent_, given_up_;
 };
 
 TEST_F(RefinementTest, IsGivenUpForALesserPicture) {
@@ -153,6 +168,33 @@ TEST_F(RefinementTest, OfAnotherClientGoesOn) {
     ask(Quality::draft);
     EXPECT_THAT(begun_, ElementsAre(1, 2));
     EXPECT_THAT(cancelled_, IsEmpty());
+}
+
+// What is laid of it is let go, and of nothing else.
+TEST_F(RefinementTest, IsGivenUpBetweenItsBands) {
+    size_ = {.width = 300, .height = 300};
+    ask(Quality::high);
+    ASSERT_GE(bands_, 3U);
+    draw_some(1, 2);
+    ask(Quality::draft);
+    EXPECT_THAT(cancelled_, ElementsAre(1));
+    EXPECT_THAT(given_up_, ElementsAre(1));
+    ask(Quality::draft);
+    ask(Quality::draft);
+    EXPECT_THAT(given_up_, ElementsAre(1));
+    draw(2);
+    finish(2);
+    EXPECT_THAT(sent_, ElementsAre(2));
+}
+
+TEST_F(RefinementTest, OfAClientThatLeavesIsGivenUp) {
+    size_ = {.width = 300, .height = 300};
+    ask(Quality::high);
+    ask(Quality::high);
+    draw_some(1, 2);
+    take(head_.handle(wire::LinkDown{client, pb::REASON_LOST, "gone"}, now_));
+    EXPECT_THAT(cancelled_, ElementsAre(1, 2));
+    EXPECT_THAT(given_up_, ElementsAre(1)) << "nothing of the second was laid";
 }
 
 }  // namespace

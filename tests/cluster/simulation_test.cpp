@@ -29,10 +29,10 @@ class Waves final : public volume::VoxelSource {
     bool concurrent_;
 };
 
-wire::View view_of(const volume::Index3& n) {
+wire::View view_of(const volume::Index3& n, const view::ImageSize& size = {.width = 24, .height = 20}) {
     wire::View view;
     view.camera = view::camera_on({}, {.n = n, .spacing = {1, 1, 1}});
-    view.size = {.width = 24, .height = 20};
+    view.size = size;
     view.tf = view::default_transfer_function();
     return view;
 }
@@ -136,15 +136,19 @@ TEST(Simulation, WhereNoSketchCanBeHadTheCubeIsWaitedFor) {
 
 // Daemons die and come back at any moment, several at once, while a client asks: every request is answered,
 // and when all are back the picture is whole and right.
-TEST(Simulation, AnyStormOfDeathsEndsWhole) {
+struct Storm {
+    std::uint64_t seeds;
+    volume::Index3 n = cube;
+    view::ImageSize size = {.width = 24, .height = 20};
+    int sketch_level = 0;
+};
+void storm(const Storm& storm) {
     Waves source(true);
-    for (std::uint64_t seed = 0; seed < 60; ++seed) {
-        const bool sketches = seed % 3 == 0;
-        const volume::Index3& n = sketches ? large_cube : cube;
-        support::Simulation simulation(seed, *tree::full_tree(2, seed % 2 == 0 ? 3 : 4), n, source,
-                                       sketches ? 1 : 0);
-        wire::View view = view_of(n);
-        view.sketch = sketches;
+    wire::View view = view_of(storm.n, storm.size);
+    view.sketch = storm.sketch_level > 0;
+    for (std::uint64_t seed = 0; seed < storm.seeds; ++seed) {
+        support::Simulation simulation(seed, *tree::full_tree(2, seed % 2 == 0 ? 3 : 4), storm.n, source,
+                                       storm.sketch_level);
         const std::vector<tree::Place> places = all_daemons(simulation);
         std::ranges::for_each(places, [&](tree::Place place) { simulation.start_daemon(place); });
         const std::uint64_t calm = simulation.ask(view);
@@ -176,7 +180,26 @@ TEST(Simulation, AnyStormOfDeathsEndsWhole) {
         EXPECT_EQ(support::difference(expected, picture_of(*simulation.newest_frame(), view)).largest, 0)
             << "seed " << seed;
         EXPECT_TRUE(simulation.run_until([&] { return simulation.head().roster().all_ready(); }));
+        EXPECT_EQ(simulation.canvases(), 0U) << "seed " << seed;
     }
+}
+
+TEST(Simulation, AnyStormOfDeathsEndsWhole) {
+    storm({.seeds = 40});
+}
+
+TEST(Simulation, AnyStormOfDeathsWhileSketchesAreSeenEndsWhole) {
+    storm({.seeds = 20, .n = large_cube, .sketch_level = 1});
+}
+
+// Of pictures in several bands: a daemon dies between two of a frame's.
+TEST(Simulation, AnyStormOfDeathsBetweenBandsEndsWhole) {
+    constexpr view::ImageSize size{.width = 180, .height = 560};
+    const wire::View view = view_of(cube, size);
+    const auto factorisation = view::factorise(view.camera, view.size, {.n = cube, .spacing = {1, 1, 1}},
+                                               view::sampling(view.quality));
+    ASSERT_GE(view::bands_of(factorisation).size(), 3U);
+    storm({.seeds = 16, .size = size});
 }
 
 }  // namespace

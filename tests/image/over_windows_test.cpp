@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "common/image/canvas.h"
 #include "common/image/over.h"
 
 namespace shearwater::image {
@@ -182,6 +183,50 @@ TEST(Spans, CutAtEveryByteAreRefused) {
         const std::vector<std::byte> bytes(whole.bytes.begin(),
                                            whole.bytes.begin() + static_cast<std::ptrdiff_t>(cut));
         EXPECT_FALSE(check_spans(bytes, whole.rect)) << cut;
+    }
+}
+
+view::Factorisation two_faces() {
+    view::Factorisation f;
+    f.faces = {{.axis = 2, .width = 700, .height = 300}, {.axis = 1, .width = 400, .height = 200}};
+    return f;
+}
+
+// Band by band, in any order, over whatever was in the memory: the same as all at once.
+TEST(Canvas, HasEachBandInItsPlace) {
+    std::mt19937 random(9);
+    const view::Factorisation f = two_faces();
+    std::vector<view::Band> bands = view::bands_of(f);
+    ASSERT_GE(bands.size(), 6U);
+    std::ranges::shuffle(bands, random);
+    Canvas canvas;
+    for (int turn = 0; turn < 2; ++turn) {
+        canvas.begin(f);
+        std::vector<CodedWindows> coded;
+        for (const view::Band& band : bands) {
+            const Rect& rect = band.rect;
+            std::vector<SpanWindow> of_band;
+            for (unsigned layers = random() % 4; layers > 0; --layers) {
+                const Rect part{
+                    rect.x0 + static_cast<int>(random() % 30), rect.y0 + static_cast<int>(random() % 9),
+                    rect.x1 - static_cast<int>(random() % 30), rect.y1 - static_cast<int>(random() % 9)};
+                const Window window = patchy(random, band.face, part, 200);
+                coded.push_back(encode({&window, 1}));
+                of_band.push_back(coded.back().windows.at(0));
+            }
+            canvas.lay(band, of_band);
+            const auto merged = merge_front_to_back(of_band);
+            const Window& whole = canvas.windows()[static_cast<std::size_t>(band.face)];
+            for (int y = rect.y0; y < rect.y1; ++y) {
+                for (int x = rect.x0; x < rect.x1; ++x) {
+                    const bool covered = !merged.empty() && merged[0].rect.x0 <= x && x < merged[0].rect.x1 &&
+                                         merged[0].rect.y0 <= y && y < merged[0].rect.y1;
+                    const RgbaF wanted =
+                        covered ? merged[0].pixels.at(x - merged[0].rect.x0, y - merged[0].rect.y0) : RgbaF{};
+                    expect_near(whole.pixels.at(x, y), wanted, 0);
+                }
+            }
+        }
     }
 }
 

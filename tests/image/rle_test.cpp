@@ -45,6 +45,27 @@ TEST(Rle, KnownBytes) {
     EXPECT_EQ(encoded(Pixels(66 + 0x3fff, a)), bytes_of({0xff, 0xff, 1, 2, 3}));
 }
 
+// By several threads, of pictures too small for that, of whole stretches and not, of runs and of none.
+TEST(Rle, InPartsKeepsToTheBound) {
+    base::Workers workers(3);
+    std::mt19937 random(1);
+    for (const std::size_t n : {0, 1, 16383, 16384, 16385, 3 * 16384, 3 * 16384 + 128, 100001}) {
+        for (const unsigned colours : {1U, 2U, 1U << 24}) {
+            Pixels pixels(n);
+            for (Rgba8& pixel : pixels) {
+                const auto colour = random() % colours;
+                pixel = {static_cast<std::uint8_t>(colour), static_cast<std::uint8_t>(colour >> 8),
+                         static_cast<std::uint8_t>(colour >> 16), 255};
+            }
+            Bytes out(rle_bound(n));
+            out.resize(encode_rle(pixels, out, workers));
+            Pixels back(n);
+            ASSERT_TRUE(decode_rle(out, back)) << n;
+            EXPECT_EQ(back, pixels) << n << " of " << colours;
+        }
+    }
+}
+
 TEST(Rle, AlphaIsNotSent) {
     EXPECT_EQ(encoded({{1, 2, 3, 0}, {1, 2, 3, 9}}), bytes_of({0x80, 1, 2, 3}));
     expect_round_trip({{1, 2, 3, 0}, {1, 2, 3, 9}, {7, 7, 7, 7}});

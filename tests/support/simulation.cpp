@@ -1,5 +1,8 @@
 #include "tests/support/simulation.h"
 
+#include <gtest/gtest.h>
+
+#include "common/image/over_windows.h"
 #include "common/image/warp.h"
 #include "common/volume/statistics.h"
 #include "protocol/wire/picture.h"
@@ -157,14 +160,30 @@ struct Simulation::Renderer final : Simulation::Daemon {
             tell(leaf::Loaded{load->job, {}});
         } else if (const auto* draw = std::get_if<leaf::Draw>(&effect);
                    draw != nullptr && (draw->sketch ? sketch.has_value() : bricks.has_value())) {
-            node::Merged drawn{.frame = draw->frame, .windows = {}, .missing = {}, .stats = {}};
-            const auto render = [&](const shear::BrickVolume& volume) {
-                return shear::render(volume, draw->factorisation, draw->tf, sim.workers_);
-            };
-            drawn.windows =
-                draw->sketch ? render(sketch->volume(*draw->sketch, sim.workers_)) : render(*bricks);
-            tell(leaf::Drawn{draw->job, node::to_message(drawn)});
+            if (draw->sketch) {
+                render(*draw, sketch->volume(*draw->sketch, sim.workers_));
+            } else {
+                render(*draw, *bricks);
+            }
         }
+    }
+
+    void render(const leaf::Draw& draw, const shear::BrickVolume& volume) {
+        const std::vector<view::Band> bands = view::bands_of(draw.factorisation);
+        if (bands.empty()) {
+            tell(leaf::Drawn{draw.job, wire::windows_message(draw.frame, 0, {}), true});
+        }
+        const auto classified = shear::classify(volume, draw.tf, sim.workers_);
+        shear::render_bands(
+            volume, classified, draw.factorisation, bands, sim.workers_, [&](const shear::DrawnBands& drawn) {
+                const bool last = drawn.bands == bands.size();
+                auto message =
+                    wire::windows_message(draw.frame, drawn.bands, image::encode({&drawn.window, 1}));
+                // Each by itself, so that the renderer may die in between.
+                sim.fabric_.later(number, [this, job = draw.job, message = std::move(message), last] {
+                    tell(leaf::Drawn{job, message, last});
+                });
+            });
     }
 
     void make_sketch(leaf::Job job, const leaf::Share& share, int level) {
@@ -193,8 +212,8 @@ struct Simulation::Compositor final : Simulation::Daemon {
     void perform(junction::Effects effects) {
         sim.fabric_.perform(number, std::move(effects.net));
         for (junction::Merge& merge : effects.merges) {
-            sim.fabric_.later(number, [this, merge = std::move(merge)] {
-                perform(junction.handle(junction::MergeDone{merge.job.frame, node::merge_coded(merge.job)}));
+            sim.fabric_.later(number, [this, merge = std::move(merge)]() mutable {
+                perform(junction.handle(junction::MergeDone{node::merge_coded(merge.job)}));
             });
         }
     }
@@ -258,26 +277,41 @@ void Simulation::kill_daemon(tree::Place place) {
 void Simulation::perform(head::Effects effects) {
     fabric_.perform(server_node, std::move(effects.net));
     for (head::Job& job : effects.jobs) {
-        fabric_.later(server_node, [this, job = std::move(job)] {
-            const auto* finish = std::get_if<head::Finish>(&job);
-            if (finish == nullptr) {
-                return;
+        fabric_.later(server_node, [this, job = std::move(job)]() mutable {
+            if (auto* lay = std::get_if<head::Lay>(&job)) {
+                canvas_of(lay->merge);
+            } else if (auto* finish = std::get_if<head::Finish>(&job)) {
+                this->finish(*finish);
+            } else if (const auto* given_up = std::get_if<head::GiveUp>(&job)) {
+                EXPECT_EQ(canvases_.erase(given_up->frame), 1U) << "what was never begun is given up";
             }
-            const node::Merged merged = node::merge(finish->merge);
-            pb::Frame frame;
-            frame.set_number(merged.frame);
-            frame.set_revision(finish->view.revision);
-            frame.set_sketch(finish->sketch);
-            for (const node::Missing& missing : merged.missing) {
-                frame.add_missing()->set_place(static_cast<std::uint32_t>(missing.place));
-            }
-            const auto picture = image::warp(finish->merge.factorisation, merged.windows, finish->view.camera,
-                                             finish->view.size, finish->view.tf.background, workers_);
-            perform(head_.handle(
-                head::Finished{merged.frame, wire::frame_message(std::move(frame), picture, false)},
-                fabric_.now()));
         });
     }
+}
+
+image::Canvas& Simulation::canvas_of(node::MergeJob& job) {
+    const auto [canvas, is_new] = canvases_.try_emplace(job.frame->number);
+    if (is_new) {
+        canvas->second.begin(job.frame->factorisation);
+    }
+    node::merge_into(canvas->second, job);
+    return canvas->second;
+}
+
+void Simulation::finish(head::Finish& job) {
+    const image::Canvas& canvas = canvas_of(job.merge);
+    const node::MergedFrame& merged = *job.merge.frame;
+    pb::Frame frame;
+    frame.set_number(merged.number);
+    frame.set_revision(job.view.revision);
+    frame.set_sketch(job.sketch);
+    node::put(job.merge.account.missing, *frame.mutable_missing());
+    const auto picture = image::warp(merged.factorisation, canvas.windows(), job.view.camera, job.view.size,
+                                     job.view.tf.background, workers_);
+    canvases_.erase(merged.number);
+    perform(head_.handle(
+        head::Finished{merged.number, wire::frame_message(std::move(frame), picture, false, workers_)},
+        fabric_.now()));
 }
 
 void Simulation::on_client_event(const wire::NetEvent& event) {

@@ -89,6 +89,8 @@ class Simulation {
     bool answered_whole(std::uint64_t revision) const;
 
     head::Head& head() { return head_; }
+    // Frames that the head has begun to lay and neither finished nor given up.
+    std::size_t canvases() const { return canvases_.size(); }
     Fabric& fabric() { return fabric_; }
     const tree::Plan& plan() const { return head_.roster().plan(); }
 
@@ -98,6 +100,8 @@ class Simulation {
     struct Compositor;
 
     void perform(head::Effects effects);
+    image::Canvas& canvas_of(node::MergeJob& job);
+    void finish(head::Finish& job);
     void on_client_event(const wire::NetEvent& event);
 
     static constexpr int server_node = 0;
@@ -107,6 +111,7 @@ class Simulation {
     volume::VoxelSource& source_;
     base::Workers workers_{1};
     head::Head head_;
+    std::map<std::uint64_t, image::Canvas> canvases_;
     std::map<tree::Place, std::unique_ptr<Daemon>> daemons_;
     std::uint64_t revision_ = 0;
     std::optional<wire::Message> frame_, sketch_;

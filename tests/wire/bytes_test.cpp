@@ -159,15 +159,15 @@ TEST(Bytes, OfEveryMessageAreReadBack) {
     }
 }
 
-// Of version 2, little-endian, whatever the machine. Of three rows the middle one is empty; the others begin
-// with half of red, a quarter of green, all of blue, opaque, and the last has, far to the right, a level of
-// alpha.
+// Of version 3, little-endian, whatever the machine: the fifth band of a frame. Of three rows the middle one
+// is empty; the others begin with half of red, a quarter of green, all of blue, opaque, and the last has, far
+// to the right, a level of alpha.
 TEST(Bytes, OfSpans) {
     image::Window window{.face = 0, .rect = {256, 7, 300, 10}, .pixels = image::Image<image::RgbaF>(44, 3)};
     window.pixels.at(2, 0) = {0.5F, 0.25F, 1.0F, 1.0F};
     window.pixels.at(2, 2) = {0.5F, 0.25F, 1.0F, 1.0F};
     window.pixels.at(40, 2) = {0, 0, 0, 1.0F / 65535};
-    const Message message = windows_message(3, image::encode({&window, 1}));
+    const Message message = windows_message(3, 5, image::encode({&window, 1}));
     EXPECT_EQ(hex(*message.payload),
               "0100"
               "0201"
@@ -181,7 +181,7 @@ TEST(Bytes, OfSpans) {
               "2801"
               "0100"
               "0000000000000100");
-    EXPECT_EQ(hex(encode_head(message)).substr(40), "0803120c120a088404100e18d2042014");
+    EXPECT_EQ(hex(encode_head(message)).substr(40), "0803120c120a088404100e18d20420142805");
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/image/over_windows.h"
+
 #include "tests/wire/examples.h"
 
 namespace shearwater::wire::test {
@@ -19,16 +21,17 @@ image::Window window(int face, const view::Rect& rect) {
     return w;
 }
 
-// Two windows, 3 x 2 and 2 x 2 pixels, on the example's faces.
-Message two_windows() {
-    std::vector<image::Window> windows;
-    windows.push_back(window(1, {0, 0, 3, 2}));
-    windows.push_back(window(0, {3, 1, 5, 3}));
-    return windows_message(17, image::encode(windows));
+// Of the example's faces the first in two bands, the second in one.
+const std::vector<view::Band> bands{{0, {0, 0, 5, 2}}, {0, {0, 2, 5, 4}}, {1, {0, 0, 3, 2}}};
+
+// The window of the last of them, of 3 x 2 pixels.
+Message last_band() {
+    const image::Window all = window(1, {0, 0, 3, 2});
+    return windows_message(17, 3, image::encode({&all, 1}));
 }
 
-void expect_invalid(const Message& message, std::string_view what) {
-    const auto parsed = windows_from(message, factorisation());
+void expect_invalid(const Message& message, std::string_view what, std::size_t known = 1) {
+    const auto parsed = windows_from(message, bands, known);
     ASSERT_FALSE(parsed) << what;
     EXPECT_EQ(parsed.error().reason, pb::REASON_INVALID);
     EXPECT_NE(parsed.error().text.find(what), std::string::npos) << parsed.error().text;
@@ -36,69 +39,113 @@ void expect_invalid(const Message& message, std::string_view what) {
 
 template <class Change>
 Message changed(Change change) {
-    Message message = two_windows();
+    Message message = last_band();
     change(std::get<pb::Windows>(message.body));
     return message;
 }
 
 Message with_payload(base::Buffer bytes) {
-    Message message = two_windows();
+    Message message = last_band();
     message.payload = std::make_shared<const base::Buffer>(std::move(bytes));
     return message;
 }
 
 TEST(WindowsConversion, ThereAndBack) {
-    const Message message = two_windows();
+    const Message message = last_band();
     EXPECT_EQ(std::get<pb::Windows>(message.body).frame(), 17U);
-    // Four rows of one span each.
-    EXPECT_EQ(message.payload_size(), (6 + 4) * 8U + 4 * (2 + 4));
-    const auto windows = windows_from(message, factorisation()).value();
-    ASSERT_EQ(windows.size(), 2U);
-    EXPECT_EQ(windows[0].face, 1);
-    EXPECT_EQ(windows[0].rect, (view::Rect{0, 0, 3, 2}));
-    EXPECT_EQ(windows[1].face, 0);
-    EXPECT_EQ(windows[1].rect, (view::Rect{3, 1, 5, 3}));
-    for (const image::Window& had : image::merge_front_to_back(windows)) {
-        const image::Window sent = window(had.face, had.rect);
-        for (std::size_t i = 0; i < sent.pixels.pixels().size(); ++i) {
-            EXPECT_NEAR(had.pixels.pixels()[i].a, sent.pixels.pixels()[i].a, 0.51 / 65535);
-            EXPECT_NEAR(had.pixels.pixels()[i].r, sent.pixels.pixels()[i].r, 0.51 / 65535);
+    // Two rows of one span each.
+    EXPECT_EQ(message.payload_size(), 6 * 8U + 2 * (2 + 4));
+    for (std::size_t known = 0; known < 3; ++known) {
+        const BandWindow got = windows_from(message, bands, known).value();
+        EXPECT_EQ(got.bands, 3U);
+        EXPECT_EQ(got.window.face, 1);
+        EXPECT_EQ(got.window.rect, (view::Rect{0, 0, 3, 2}));
+        const auto merged = image::merge_front_to_back({&got.window, 1});
+        const image::Window had = window(1, {0, 0, 3, 2});
+        for (std::size_t i = 0; i < had.pixels.pixels().size(); ++i) {
+            EXPECT_NEAR(merged.at(0).pixels.pixels()[i].g, had.pixels.pixels()[i].g, 0.51 / 65535);
         }
     }
 }
 
+TEST(WindowsConversion, PassedOnAsItCame) {
+    const Message message = last_band();
+    const BandWindow got = windows_from(message, bands, 0).value();
+    const Message again = windows_message(17, got, message.payload);
+    EXPECT_EQ(again.payload, message.payload) << "not a copy";
+    EXPECT_EQ(std::get<pb::Windows>(again.body).SerializeAsString(),
+              std::get<pb::Windows>(message.body).SerializeAsString());
+}
+
 TEST(WindowsConversion, NothingToSee) {
-    image::Window clear = window(0, {0, 0, 5, 4});
+    image::Window clear = window(0, {0, 0, 5, 2});
     std::ranges::fill(clear.pixels.pixels(), image::RgbaF{});
     const image::Window empty{.face = 0, .rect = {}, .pixels = {}};
-    for (const Message& message : {windows_message(1, {}), windows_message(1, image::encode({&empty, 1})),
-                                   windows_message(1, image::encode({&clear, 1}))}) {
+    for (const Message& message :
+         {windows_message(1, 1, {}), windows_message(1, 1, image::encode({&empty, 1})),
+          windows_message(1, 1, image::encode({&clear, 1}))}) {
         EXPECT_EQ(std::get<pb::Windows>(message.body).windows_size(), 0);
         EXPECT_EQ(message.payload, nullptr);
-        EXPECT_TRUE(windows_from(message, factorisation()).value().empty());
+        EXPECT_TRUE(windows_from(message, bands, 0).value().window.rect.empty());
     }
 }
 
+// In order, each once, and no more than there are.
+TEST(WindowsConversion, HostileBands) {
+    for (std::size_t known = 0; known <= 3; ++known) {
+        for (std::size_t said = 0; said <= 5; ++said) {
+            const auto got = windows_from(windows_message(1, said, {}), bands, known);
+            EXPECT_EQ(got.has_value(), known < said && said <= 3) << said << " after " << known;
+        }
+    }
+    expect_invalid(changed([](pb::Windows& w) { w.set_bands(0xFFFFFFFFU); }),
+                   "windows.bands: 4294967295 of 3");
+    // A frame without bands is answered all the same.
+    EXPECT_TRUE(windows_from(windows_message(1, 0, {}), {}, 0));
+    EXPECT_FALSE(windows_from(windows_message(1, 1, {}), {}, 0));
+    EXPECT_FALSE(windows_from(last_band(), {}, 0));
+    Message of_none = last_band();
+    std::get<pb::Windows>(of_none.body).set_bands(0);
+    EXPECT_FALSE(windows_from(of_none, {}, 0));
+}
+
+TEST(WindowsConversion, TheAccountComesWithTheLastBand) {
+    const auto with_cost = [](std::size_t known) {
+        Message message = windows_message(1, known, {});
+        std::get<pb::Windows>(message.body).mutable_stats()->set_samples(1);
+        return message;
+    };
+    const auto lacking = [](std::size_t known) {
+        Message message = windows_message(1, known, {});
+        std::get<pb::Windows>(message.body).add_missing();
+        return message;
+    };
+    expect_invalid(with_cost(2), "before its last band");
+    expect_invalid(lacking(2), "before its last band");
+    EXPECT_TRUE(windows_from(with_cost(3), bands, 1));
+    EXPECT_TRUE(windows_from(lacking(3), bands, 1));
+}
+
 TEST(WindowsConversion, PayloadCutAtEveryByteOrTooLong) {
-    const base::Buffer whole = *two_windows().payload;
+    const base::Buffer whole = *last_band().payload;
     for (std::size_t cut = 0; cut < whole.size(); ++cut) {
         expect_invalid(with_payload({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(cut)}),
                        "cut off");
     }
-    EXPECT_TRUE(windows_from(with_payload(whole), factorisation()));
+    EXPECT_TRUE(windows_from(with_payload(whole), bands, 0));
     for (std::size_t more = 1; more <= 9; ++more) {
         base::Buffer longer = whole;
         longer.resize(whole.size() + more, std::byte{});
         expect_invalid(with_payload(longer), "payload is longer");
     }
-    Message none = windows_message(1, {});
+    Message none = windows_message(1, 3, {});
     none.payload = std::make_shared<const base::Buffer>(8, std::byte{});
     expect_invalid(none, "payload is longer");
 }
 
-// The first window's first row is | 1 | x 0, length 3 | 3 pixels.
+// The first row is | 1 | x 0, length 3 | 3 pixels.
 TEST(WindowsConversion, HostileSpans) {
-    const base::Buffer whole = *two_windows().payload;
+    const base::Buffer whole = *last_band().payload;
     const auto with = [&](std::size_t at, unsigned value) {
         base::Buffer bytes = whole;
         bytes[at] = static_cast<std::byte>(value & 0xFFU);
@@ -114,7 +161,7 @@ TEST(WindowsConversion, HostileSpans) {
     for (const unsigned spans : {2U, 0xFFFFU}) {
         expect_invalid(with(0, spans), "leaves its row");
     }
-    EXPECT_FALSE(windows_from(with(0, 0), factorisation())) << "the pixels are not the next row";
+    EXPECT_FALSE(windows_from(with(0, 0), bands, 0)) << "the pixels are not the next row";
 }
 
 // Two spans of a row of five: apart, touching, overlapping, and out of order.
@@ -131,28 +178,27 @@ TEST(WindowsConversion, SpansOfARowRiseWithGaps) {
             put(static_cast<std::size_t>(length));
             bytes.resize(bytes.size() + static_cast<std::size_t>(length) * sizeof(image::Rgba16));
         }
-        pb::Windows body;
-        body.add_windows()->set_face(0);
-        *body.mutable_windows(0)->mutable_rect() = to_wire(view::Rect{0, 1, 5, 2});
-        return message(std::move(body), std::move(bytes));
+        const BandWindow band{.bands = 1, .window = {.face = 0, .rect = {0, 1, 5, 2}, .bytes = {}}};
+        return windows_message(1, band, std::make_shared<const base::Buffer>(std::move(bytes)));
     };
-    EXPECT_TRUE(windows_from(row({}), factorisation()));
-    EXPECT_TRUE(windows_from(row({{0, 5}}), factorisation()));
-    EXPECT_TRUE(windows_from(row({{0, 2}, {3, 2}}), factorisation()));
-    EXPECT_TRUE(windows_from(row({{0, 1}, {2, 1}, {4, 1}}), factorisation()));
-    expect_invalid(row({{0, 2}, {2, 2}}), "its place in it");
-    expect_invalid(row({{0, 3}, {2, 2}}), "its place in it");
-    expect_invalid(row({{3, 2}, {0, 2}}), "its place in it");
-    expect_invalid(row({{0, 2}, {3, 3}}), "its place in it");
+    EXPECT_TRUE(windows_from(row({}), bands, 0));
+    EXPECT_TRUE(windows_from(row({{0, 5}}), bands, 0));
+    EXPECT_TRUE(windows_from(row({{0, 2}, {3, 2}}), bands, 0));
+    EXPECT_TRUE(windows_from(row({{0, 1}, {2, 1}, {4, 1}}), bands, 0));
+    expect_invalid(row({{0, 2}, {2, 2}}), "its place in it", 0);
+    expect_invalid(row({{0, 3}, {2, 2}}), "its place in it", 0);
+    expect_invalid(row({{3, 2}, {0, 2}}), "its place in it", 0);
+    expect_invalid(row({{0, 2}, {3, 3}}), "its place in it", 0);
 }
 
 TEST(WindowsConversion, HostileFaces) {
-    for (const std::uint32_t face : {2U, 6U, 0xFFFFFFFFU}) {
+    for (const std::uint32_t face : {0U, 2U, 6U, 0xFFFFFFFFU}) {
         expect_invalid(changed([&](pb::Windows& w) { w.mutable_windows(0)->set_face(face); }),
-                       "windows.face");
+                       "leaves its band");
     }
-    expect_invalid(changed([](pb::Windows& w) { w.mutable_windows(1)->set_face(1); }), "windows.face");
-    expect_invalid(changed([](pb::Windows& w) { *w.add_windows() = w.windows(0); }), "windows.face");
+    expect_invalid(changed([](pb::Windows& w) { *w.add_windows() = w.windows(0); }), "more than one");
+    // Another face's window, sound in itself, with the band before.
+    expect_invalid(changed([](pb::Windows& w) { w.set_bands(2); }), "leaves its band");
 }
 
 TEST(WindowsConversion, HostileRectangles) {
@@ -170,20 +216,31 @@ TEST(WindowsConversion, HostileRectangles) {
                                         {lowest, 0, lowest, 2}};
     for (const view::Rect& rect : rects) {
         const auto change = [&](pb::Windows& w) { *w.mutable_windows(0)->mutable_rect() = to_wire(rect); };
-        expect_invalid(changed(change), "windows.rect");
+        expect_invalid(changed(change), "leaves its band");
     }
-    // Inside its face, and not that of its spans.
+    // Inside its band, and not that of its spans.
     const auto narrower = [](pb::Windows& w) { w.mutable_windows(0)->mutable_rect()->set_x1(2); };
     expect_invalid(changed(narrower), "leaves its row");
-    const auto lower = [](pb::Windows& w) { w.mutable_windows(1)->mutable_rect()->set_y1(2); };
+    const auto lower = [](pb::Windows& w) { w.mutable_windows(0)->mutable_rect()->set_y1(1); };
     expect_invalid(changed(lower), "payload is longer");
-    const auto higher = [](pb::Windows& w) { w.mutable_windows(1)->mutable_rect()->set_y0(0); };
-    expect_invalid(changed(higher), "cut off");
+}
+
+// Inside its face, but a line over the edge of the band.
+TEST(WindowsConversion, AWindowKeepsToItsBand) {
+    const auto in_band = [](std::size_t band, const view::Rect& rect) {
+        const image::Window pixels = window(0, rect);
+        return windows_message(1, band + 1, image::encode({&pixels, 1}));
+    };
+    EXPECT_TRUE(windows_from(in_band(0, {0, 0, 5, 2}), bands, 0));
+    EXPECT_TRUE(windows_from(in_band(1, {0, 2, 5, 4}), bands, 0));
+    expect_invalid(in_band(0, {0, 1, 5, 3}), "leaves its band", 0);
+    expect_invalid(in_band(0, {0, 2, 5, 4}), "leaves its band", 0);
+    expect_invalid(in_band(1, {0, 1, 5, 3}), "leaves its band", 0);
 }
 
 TEST(WindowsConversion, TheLargestFactorisationFitsTheLimit) {
-    constexpr std::uint64_t rows =
-        std::uint64_t{view::Factorisation::max_faces} * view::Factorisation::max_side;
+    // As one band.
+    constexpr std::uint64_t rows = view::Factorisation::max_side;
     const std::uint64_t each = image::spans_bound({0, 0, 1, 1}) - sizeof(image::Rgba16);
     EXPECT_LE(static_cast<std::uint64_t>(view::Factorisation::max_area) * sizeof(image::Rgba16) + rows * each,
               limit_of(type_of(Body(pb::Windows())))->payload);

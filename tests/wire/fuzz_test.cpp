@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "common/image/canvas.h"
 #include "tests/wire/examples.h"
 
 namespace shearwater::wire::test {
@@ -144,23 +145,28 @@ image::Window random_window(Random& random, int face, const view::Rect& rect) {
     return window;
 }
 
-// Windows that were good, with bytes changed or a rectangle of another's. What is taken is merged both ways,
-// which reads every span and must give the same.
+// Windows that were good, with bytes changed, a rectangle of another's, or another band's. What is taken is
+// merged both ways, which reads every span and must give the same.
 TEST(Fuzz, WindowsOfAnyShape) {
     Random random(4);
     view::Factorisation f = factorisation();
     f.faces[0].width = 60;
+    const std::vector<view::Band> bands = view::bands_of(f);
+    ASSERT_EQ(bands.size(), 2U);
+    image::Canvas canvas;
+    canvas.begin(f);
     std::size_t taken = 0;
     for (int i = 0; i < 60000; ++i) {
-        std::vector<image::Window> windows;
-        windows.push_back(random_window(random, 0, {3, 1, 4 + static_cast<int>(below(random, 50)), 4}));
-        windows.push_back(random_window(random, 1, {0, 0, 3, 2}));
-        image::CodedWindows coded = image::encode(windows);
+        const std::size_t band = below(random, bands.size());
+        const image::Window window =
+            band == 0 ? random_window(random, 0, {3, 1, 4 + static_cast<int>(below(random, 50)), 4})
+                      : random_window(random, 1, {0, 0, 3, 2});
+        image::CodedWindows coded = image::encode({&window, 1});
         std::vector<std::byte> bytes(coded.bytes.begin(), coded.bytes.end());
         if (below(random, 4) != 0) {
             mutate(bytes, random);
         }
-        Message sent = windows_message(1, std::move(coded));
+        Message sent = windows_message(1, band + 1, std::move(coded));
         sent.payload = std::make_shared<const base::Buffer>(bytes.begin(), bytes.end());
         for (pb::WindowHead& head : *std::get<pb::Windows>(sent.body).mutable_windows()) {
             if (below(random, 8) == 0) {
@@ -168,17 +174,23 @@ TEST(Fuzz, WindowsOfAnyShape) {
                 *head.mutable_rect() = to_wire(view::Rect{edge(), edge() / 10, edge(), edge() / 10});
             }
         }
-        if (const auto got = windows_from(sent, f)) {
+        std::get<pb::Windows>(sent.body).set_bands(static_cast<std::uint32_t>(below(random, 4)));
+        const std::size_t known = below(random, 2);
+        if (const auto got = windows_from(sent, bands, known)) {
             ++taken;
-            for (const image::SpanWindow& window : *got) {
-                const view::Face& face = f.faces[static_cast<std::size_t>(window.face)];
-                EXPECT_EQ(view::intersection(window.rect, {0, 0, face.width, face.height}), window.rect);
+            ASSERT_TRUE(known < got->bands && got->bands <= bands.size());
+            if (got->window.rect.empty()) {
+                continue;
             }
-            std::vector<image::SpanWindow> twice = *got;
-            twice.insert(twice.end(), got->begin(), got->end());
+            const view::Band& of = bands[got->bands - 1];
+            EXPECT_EQ(got->window.face, of.face);
+            EXPECT_EQ(view::intersection(got->window.rect, of.rect), got->window.rect);
+            const std::vector<image::SpanWindow> twice(2, got->window);
             const image::CodedWindows merged = image::merge_coded(twice);
-            EXPECT_EQ(image::merge_front_to_back(merged.windows).size(), got->size());
-            EXPECT_TRUE(windows_from(windows_message(1, image::merge_coded(twice)), f));
+            EXPECT_EQ(image::merge_front_to_back(merged.windows).size(), 1U);
+            canvas.lay(of, twice);
+            EXPECT_TRUE(
+                windows_from(windows_message(1, got->bands, image::merge_coded(twice)), bands, known));
         }
     }
     EXPECT_GT(taken, 1000U);

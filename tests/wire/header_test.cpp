@@ -114,7 +114,7 @@ TEST(Header, OfAnotherMagicVersionOrType) {
         bytes[i] ^= std::byte{32};
         EXPECT_EQ(parse_header(bytes).error().reason, pb::REASON_BAD_MAGIC);
     }
-    for (const std::uint64_t version : {0, 3, 256, 65535}) {
+    for (const std::uint64_t version : {0, protocol_version + 1, 256, 65535}) {
         EXPECT_EQ(parse_header(header_of(version, 5, 0, 0)).error().reason, pb::REASON_BAD_VERSION);
     }
     for (const std::uint64_t type : {0, 7, 15, 40, 69, 256, 65535}) {
