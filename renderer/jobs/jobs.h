@@ -22,7 +22,7 @@ namespace shearwater::jobs {
 
 class Jobs {
   public:
-    // `tell` is called from the jobs' thread and must only pass the event on.
+    // `tell` is called from the threads that compute, one at a time, and must only pass the event on.
     Jobs(int threads, std::function<void(leaf::JobEvent)> tell);
     ~Jobs();  // stops what runs
     Jobs(const Jobs&) = delete;
