@@ -218,6 +218,23 @@ TEST_F(BandsTest, OfAChildThatDiesGoOnAndItIsMissing) {
     EXPECT_EQ(complete[1].account.missing[0].place, 3);
 }
 
+// What it was merging when its link broke still comes, on the new one.
+TEST_F(BandsTest, OfAChildThatIsBackAreTooLateForTheFrame) {
+    give(left_, 1, 0.25F);
+    branch_.link_down(left_);
+    const LinkId again{103};
+    EXPECT_EQ(branch_.adopt(again, adopt(3), effects_), 3);
+    effects_.clear();
+    give(again, 2, 0.25F);
+    EXPECT_TRUE(effects_.empty());
+    EXPECT_TRUE(branch_.is_child(again));
+    branch_.receive(right_, empty_windows(1, bands_.size()), effects_);
+    const auto complete = branch_.take_complete();
+    ASSERT_EQ(complete.size(), 2U);
+    EXPECT_EQ(complete[0].end, 1U);
+    EXPECT_TRUE(complete[1].windows.empty());
+}
+
 TEST_F(BandsTest, OfACancelledFrameAreForgotten) {
     give(left_, 1, 0.25F);
     branch_.cancel(1, effects_);
