@@ -1,5 +1,6 @@
 #pragma once
-// The options of a still picture: camera, size, transfer function, quality, level of detail.
+// The options of a still picture: camera, size, transfer function, quality, classification, level of
+// detail.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -12,6 +13,8 @@
 
 namespace shearwater::deploy {
 
+// --classify post|pre-integrated.
+void add_classify(CLI::App& app, std::string& classify, const std::string& group = "Options");
 // --lod on|off.
 void add_lod(CLI::App& app, std::string& lod, const std::string& group = "Options");
 
@@ -23,6 +26,7 @@ struct ViewOptions {
     std::string size = "512x512";
     std::string tf_file;
     std::string quality = "normal";
+    std::string classify = "post";
     std::string lod = "on";
 
     void add_to(CLI::App& app);
@@ -32,7 +36,10 @@ struct ViewOptions {
     base::Result<view::TransferFunction> transfer_function() const;
     view::Quality quality_value() const;
     bool level_of_detail() const { return lod == "on"; }
-    view::Sampling sampling() const { return view::sampling(quality_value(), level_of_detail()); }
+    view::Classify classify_value() const;
+    view::Sampling sampling() const {
+        return view::sampling(quality_value(), level_of_detail(), classify_value());
+    }
     // The camera for a cube, checked.
     base::Result<view::Camera> camera(const view::Lattice& lattice) const;
 };

@@ -29,6 +29,7 @@ struct Wish {
     view::TransferFunction tf = view::default_transfer_function();
     view::ImageSize size;  // at most what view::validate allows
     bool level_of_detail = true;
+    view::Classify classify = view::Classify::post;
     bool operator==(const Wish&) const = default;
 };
 

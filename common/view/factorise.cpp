@@ -285,8 +285,7 @@ int level_of_detail(const Factorisation& factorisation, const std::vector<Plan>&
         least = std::min(least, least_voxels_per_pixel(factorisation, plan));
     }
     int level = 0;
-    while (level < volume::coarsest_level(factorisation.lattice.n) &&
-           std::ldexp(1.0, level + 1) <= least) {
+    while (level < volume::coarsest_level(factorisation.lattice.n) && std::ldexp(1.0, level + 1) <= least) {
         ++level;
     }
     return level;
@@ -297,8 +296,10 @@ int level_of_detail(const Factorisation& factorisation, const std::vector<Plan>&
 Factorisation factorise(const Camera& camera, const ImageSize& size, const Lattice& lattice,
                         const Sampling& sampling) {
     const Rays rays = in_voxel_space(rays_of(camera, size), lattice);
-    Factorisation factorisation{
-        .projection = camera.projection, .lattice = lattice, .slice_exponent = sampling.slice_exponent};
+    Factorisation factorisation{.projection = camera.projection,
+                                .lattice = lattice,
+                                .slice_exponent = sampling.slice_exponent,
+                                .classify = sampling.classify};
     const Polygon picture = whole_picture(size);
     std::vector<Plan> plans;
     if (camera.projection == Projection::perspective) {

@@ -42,6 +42,7 @@ struct View {
     view::Quality quality = view::Quality::normal;
     bool deflate = false;
     bool level_of_detail = true;
+    view::Classify classify = view::Classify::post;
 };
 pb::SetView to_wire(const View& view);
 Parsed<View> view_from(const pb::SetView& view);

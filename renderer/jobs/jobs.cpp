@@ -124,7 +124,7 @@ void Jobs::draw(const leaf::Draw& job, const std::stop_token& stop) {
     const auto begin = std::chrono::steady_clock::now();
     shear::RenderStats stats;
     node::Merged drawn{.frame = job.frame, .windows = {}, .missing = {}, .stats = {}};
-    const auto& classification = classifier_.classify(*volume_, job.tf, workers_);
+    const auto& classification = classifier_.classify(*volume_, job.tf, job.factorisation.classify, workers_);
     drawn.windows = shear::render(*volume_, classification, job.factorisation, workers_, &stats, stop);
     if (stop.stop_requested()) {
         return;

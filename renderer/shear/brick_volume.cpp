@@ -184,8 +184,8 @@ bool BrickVolume::build(CodeVolume voxels, base::Workers& workers, const std::st
                 return false;
             }
         }
-        levels_[level].crop(volume::nodes_of(box_, number));
-        if (!levels_[level].survey(workers, stop)) {
+        levels_[level].crop(volume::nodes_kept(box_, number, n_));
+        if (!levels_[level].survey(volume::nodes_of(box_, number), workers, stop)) {
             return false;
         }
     }

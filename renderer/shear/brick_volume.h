@@ -32,7 +32,8 @@ class BrickVolume {
     const volume::Mapping& mapping() const { return mapping_; }
     std::size_t bytes() const;
 
-    // Level 0, the voxels, to volume::coarsest_level(cube()): the nodes between which the box's samples lie.
+    // Level 0, the voxels, to volume::coarsest_level(cube()): those between which the box's samples
+    // lie and a margin (volume::nodes_kept).
     int levels() const { return static_cast<int>(levels_.size()); }
     const CodeVolume& level(int level) const { return levels_[static_cast<std::size_t>(level)]; }
     // Of level 0.

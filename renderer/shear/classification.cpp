@@ -7,7 +7,9 @@ namespace shearwater::shear {
 
 namespace {
 
-std::vector<Content> contents_of(std::span<const CodeRange> ranges, const OpacityTable& table,
+// Table: one of those that know what has opacity.
+template <class Table>
+std::vector<Content> contents_of(std::span<const CodeRange> ranges, const Table& table,
                                  base::Workers& workers) {
     constexpr std::int64_t at_once = 1 << 15;
     const auto count = static_cast<std::int64_t>(ranges.size());
@@ -24,28 +26,55 @@ std::vector<Content> contents_of(std::span<const CodeRange> ranges, const Opacit
     return contents;
 }
 
+// Whether each brick has a micro-brick that is not transparent.
+std::vector<std::uint8_t> any_within(const CodeGrid& bricks, const CodeGrid& micro_bricks,
+                                     std::span<const Content> contents) {
+    const std::int64_t ratio = bricks.edge() / micro_bricks.edge();
+    std::vector<std::uint8_t> any(bricks.ranges().size());
+    volume::Index3 at;
+    for (at[2] = 0; at[2] < micro_bricks.counts()[2]; ++at[2]) {
+        for (at[1] = 0; at[1] < micro_bricks.counts()[1]; ++at[1]) {
+            for (at[0] = 0; at[0] < micro_bricks.counts()[0]; ++at[0]) {
+                if (contents[micro_bricks.index(at)] != Content::transparent) {
+                    volume::Index3 brick;
+                    for (int axis = 0; axis < 3; ++axis) {
+                        const auto a = static_cast<std::size_t>(axis);
+                        brick[a] = (micro_bricks.first(axis) + at[a]) / ratio - bricks.first(axis);
+                    }
+                    any[bricks.index(brick)] = 1;
+                }
+            }
+        }
+    }
+    return any;
+}
+
 }  // namespace
 
-Classification classify(const BrickVolume& volume, const view::TransferFunction& tf, base::Workers& workers) {
-    Classification classification{.table = OpacityTable(tf, volume.mapping().levels()),
-                                  .micro_bricks = {},
-                                  .opaque = std::vector<std::uint8_t>(volume.bricks().ranges().size())};
+Classification classify(const BrickVolume& volume, const view::TransferFunction& tf, view::Classify how,
+                        base::Workers& workers) {
+    const int codes = volume.mapping().levels();
+    Classification classification{
+        .table = OpacityTable(tf, codes), .segments = {}, .micro_bricks = {}, .opaque = {}};
     const OpacityTable& table = classification.table;
-    for (int level = 0; level < volume.levels(); ++level) {
-        classification.micro_bricks.push_back(
-            contents_of(volume.level(level).micro_bricks().ranges(), table, workers));
+    if (how == view::Classify::pre_integrated) {
+        classification.segments.emplace(tf, codes, table);
     }
-    std::transform(volume.bricks().ranges().begin(), volume.bricks().ranges().end(),
-                   classification.opaque.begin(), [&](const CodeRange& range) {
-                       return static_cast<std::uint8_t>(table.any_opacity(range.min, range.max));
-                   });
+    for (int level = 0; level < volume.levels(); ++level) {
+        const CodeVolume& nodes = volume.level(level);
+        classification.micro_bricks.push_back(
+            classification.segments ? contents_of(nodes.reaches(), *classification.segments, workers)
+                                    : contents_of(nodes.micro_bricks().ranges(), table, workers));
+    }
+    classification.opaque =
+        any_within(volume.bricks(), volume.level(0).micro_bricks(), classification.micro_bricks.front());
     return classification;
 }
 
 const Classification& Classifier::classify(const BrickVolume& volume, const view::TransferFunction& tf,
-                                           base::Workers& workers) {
-    if (!last_ || last_->tf != tf) {
-        last_ = {tf, shear::classify(volume, tf, workers)};
+                                           view::Classify how, base::Workers& workers) {
+    if (!last_ || last_->how != how || last_->tf != tf) {
+        last_ = {tf, how, shear::classify(volume, tf, how, workers)};
     }
     return last_->result;
 }

@@ -6,37 +6,43 @@
 #include <vector>
 
 #include "common/base/workers.h"
+#include "common/view/factorisation.h"
 #include "common/view/transfer_function.h"
 #include "renderer/shear/brick_volume.h"
 #include "renderer/shear/opacity_table.h"
+#include "renderer/shear/segment_table.h"
 
 namespace shearwater::shear {
 
 // What the kernel has to do with a micro-brick.
 enum class Content : std::uint8_t {
-    transparent,  // nothing: no sample in it has opacity
-    full,         // some may, and none of its voxels is blank
+    transparent,  // nothing: no sample in it has opacity, or no segment that begins in it
+    full,         // some may, and none of the voxels between which they lie is blank
     with_blanks,  // some may
 };
 
 struct Classification {
     OpacityTable table;
+    std::optional<SegmentTable> segments;  // where classification is pre-integrated
     std::vector<std::vector<Content>>
         micro_bricks;                  // of each level, as CodeVolume::micro_bricks() counts them
     std::vector<std::uint8_t> opaque;  // as BrickVolume::bricks() does: whether one in it is not transparent
 };
 
-Classification classify(const BrickVolume& volume, const view::TransferFunction& tf, base::Workers& workers);
+Classification classify(const BrickVolume& volume, const view::TransferFunction& tf, view::Classify how,
+                        base::Workers& workers);
 
-// Keeps the last classification of one volume: only an edit of the transfer function makes a new one.
+// Keeps the last classification of one volume: only an edit of the transfer function, or
+// another way to apply it, makes a new one.
 class Classifier {
   public:
     const Classification& classify(const BrickVolume& volume, const view::TransferFunction& tf,
-                                   base::Workers& workers);
+                                   view::Classify how, base::Workers& workers);
 
   private:
     struct Last {
         view::TransferFunction tf;
+        view::Classify how;
         Classification result;
     };
     std::optional<Last> last_;

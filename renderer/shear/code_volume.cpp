@@ -53,10 +53,14 @@ CodeGrid::CodeGrid(const Box& box, std::int64_t edge) : edge_(edge) {
 }
 
 CodeVolume::CodeVolume(const Box& box, int bits)
-    : box_(box), bits_(bits), strides_(strides_of(box, bits)), codes_(bytes_of(box, strides_, bits)) {}
+    : box_(box),
+      own_(box),
+      bits_(bits),
+      strides_(strides_of(box, bits)),
+      codes_(bytes_of(box, strides_, bits)) {}
 
 std::size_t CodeVolume::bytes() const {
-    return codes_.size() + micro_bricks_.ranges().size_bytes();
+    return codes_.size() + micro_bricks_.ranges().size_bytes() + reaches().size_bytes();
 }
 
 std::size_t CodeVolume::offset(const Index3& p) const {
@@ -91,11 +95,14 @@ void CodeVolume::crop(const Box& box) {
     codes_.shrink(bytes_of(box, strides, bits_));
 }
 
-bool CodeVolume::survey(base::Workers& workers, const std::stop_token& stop) {
-    micro_bricks_ = CodeGrid(box_, micro_edge);
+bool CodeVolume::survey(const Box& own, base::Workers& workers, const std::stop_token& stop) {
+    base::check(box_.contains(own), "a volume holds its own nodes");
+    own_ = own;
+    micro_bricks_ = CodeGrid(own, micro_edge);
+    reaches_.resize(micro_bricks_.ranges().size());
     const auto over = [&]<class Code>(std::span<const Code> codes) {
-        return shear::survey(CodesOfBox<Code>{codes.data(), box_, stride(1), stride(2)}, micro_bricks_,
-                             workers, stop);
+        return shear::survey(CodesOfBox<Code>{codes.data(), box_, stride(1), stride(2)}, own, micro_bricks_,
+                             reaches_, workers, stop);
     };
     return bits_ == 8 ? over(std::as_const(*this).codes<std::uint8_t>())
                       : over(std::as_const(*this).codes<std::uint16_t>());

@@ -56,17 +56,33 @@ class FacePlan {
     // reach to where the ray enters and leaves the cube, so that together they cover it exactly.
     void shares(std::int64_t k, int i, int j, std::span<float> out) const;
 
+    // Of segments from slice to slice (segments.h). The slice behind k; its pixels are inside() too.
+    std::int64_t behind(std::int64_t k) const { return k + face_.sign; }
+    std::int64_t before(std::int64_t k) const { return k - face_.sign; }
+    // How many slice distances the rays of pixels of row j from i on have in the cube between slice k, which
+    // they all meet inside it, and the one before or behind it, which they do not.
+    void entries(std::int64_t k, int i, int j, std::span<float> out) const {
+        rims(k, -face_.sign, i, j, out);
+    }
+    void exits(std::int64_t k, int i, int j, std::span<float> out) const { rims(k, face_.sign, i, j, out); }
+    // The pixels whose rays move sideways by no more than a voxel from plane to plane.
+    const view::Rect& gentle() const { return gentle_; }
+
   private:
     std::pair<double, double> line_of(int axis) const;
     double place_of(int axis, int pixel) const;
     void lay_slice(const volume::Box& box, std::int64_t k);
+    view::Rect gentle_rays() const;
+    // What the rays of row j have of the cube, along the principal axis: each pixel's part of it.
+    class Row;
+    void rims(std::int64_t k, int sign, int i, int j, std::span<float> out) const;
     std::size_t slot(std::int64_t k) const { return static_cast<std::size_t>(k - slices_.first); }
     bool perspective() const { return factorisation_.projection == view::Projection::perspective; }
 
     const view::Factorisation& factorisation_;
     const view::Face& face_;
     volume::Index3 last_voxel_;  // of the cube
-    view::Rect window_;
+    view::Rect window_, gentle_;
     view::SliceRange slices_;  // that the sub-volume owns, in front of the eye
     std::vector<view::Rect> owned_;
     std::vector<view::Rect> inside_;  // of the slices and of one more at either end

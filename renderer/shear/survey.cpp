@@ -8,14 +8,22 @@ namespace shearwater::shear {
 
 namespace {
 
-// The planes of the box, counted from its first, that a row of the grid has along an axis: both ends.
+// Planes of a box along an axis, counted from its first: both ends.
 struct Planes {
     std::int64_t first, last;
+
+    bool contain(std::int64_t plane) const { return first <= plane && plane <= last; }
 };
-Planes planes_of(const CodeGrid& grid, const volume::Box& box, int axis, std::int64_t at) {
+// Those that a row of the grid over `own` has.
+Planes planes_of(const CodeGrid& grid, const volume::Box& box, const volume::Box& own, int axis,
+                 std::int64_t at) {
     const auto a = static_cast<std::size_t>(axis);
     const std::int64_t start = (grid.first(axis) + at) * grid.edge();
-    return {std::max(start, box.lo[a]) - box.lo[a], std::min(start + grid.edge(), box.hi[a]) - box.lo[a]};
+    return {std::max(start, own.lo[a]) - box.lo[a], std::min(start + grid.edge(), own.hi[a]) - box.lo[a]};
+}
+// With one more on either side.
+Planes about(const Planes& planes, const volume::Box& box, int axis) {
+    return {std::max<std::int64_t>(planes.first - 1, 0), std::min(planes.last + 1, box.planes(axis) - 1)};
 }
 
 // Codes are sought less one for the least: so the blank one is the greatest of all, and counts for nothing.
@@ -34,6 +42,13 @@ struct Extremes {
             least_less_one[x] = std::min(least_less_one[x], static_cast<Code>(row[x] - 1));
             least[x] = std::min(least[x], row[x]);
             greatest[x] = std::max(greatest[x], row[x]);
+        }
+    }
+    void add(const Extremes& other) {
+        for (std::size_t x = 0; x < least.size(); ++x) {
+            least_less_one[x] = std::min(least_less_one[x], other.least_less_one[x]);
+            least[x] = std::min(least[x], other.least[x]);
+            greatest[x] = std::max(greatest[x], other.greatest[x]);
         }
     }
     CodeRange over(const Planes& columns) const {
@@ -56,39 +71,49 @@ struct Extremes {
 
 // One row of micro-bricks along axis 0.
 template <class Code>
-void survey_row(const CodesOfBox<Code>& codes, CodeGrid& grid, std::int64_t my, std::int64_t mz,
-                Extremes<Code>& extremes) {
-    const Planes y = planes_of(grid, codes.box, 1, my);
-    const Planes z = planes_of(grid, codes.box, 2, mz);
-    extremes.clear();
-    for (std::int64_t plane = z.first; plane <= z.last; ++plane) {
-        for (std::int64_t row = y.first; row <= y.last; ++row) {
+void survey_row(const CodesOfBox<Code>& codes, const volume::Box& own, CodeGrid& grid,
+                std::span<CodeRange> reaches, std::int64_t my, std::int64_t mz, Extremes<Code>& within,
+                Extremes<Code>& all) {
+    const Planes y = planes_of(grid, codes.box, own, 1, my), about_y = about(y, codes.box, 1);
+    const Planes z = planes_of(grid, codes.box, own, 2, mz), about_z = about(z, codes.box, 2);
+    within.clear();
+    all.clear();
+    for (std::int64_t plane = about_z.first; plane <= about_z.last; ++plane) {
+        for (std::int64_t row = about_y.first; row <= about_y.last; ++row) {
+            Extremes<Code>& extremes = z.contain(plane) && y.contain(row) ? within : all;
             extremes.add(codes.first + plane * codes.plane_stride + row * codes.row_stride);
         }
     }
+    all.add(within);
     for (std::int64_t mx = 0; mx < grid.counts()[0]; ++mx) {
-        grid.ranges()[grid.index({mx, my, mz})] = extremes.over(planes_of(grid, codes.box, 0, mx));
+        const Planes x = planes_of(grid, codes.box, own, 0, mx);
+        const std::size_t brick = grid.index({mx, my, mz});
+        grid.ranges()[brick] = within.over(x);
+        reaches[brick] = all.over(about(x, codes.box, 0));
     }
 }
 
 }  // namespace
 
 template <class Code>
-bool survey(const CodesOfBox<Code>& codes, CodeGrid& micro_bricks, base::Workers& workers,
-            const std::stop_token& stop) {
+bool survey(const CodesOfBox<Code>& codes, const volume::Box& own, CodeGrid& micro_bricks,
+            std::span<CodeRange> reaches, base::Workers& workers, const std::stop_token& stop) {
     return workers.for_each(
         micro_bricks.counts()[2],
         [&](std::int64_t mz) {
-            Extremes<Code> extremes(static_cast<std::size_t>(codes.box.planes(0)));
+            Extremes<Code> within(static_cast<std::size_t>(codes.box.planes(0)));
+            Extremes<Code> all(within);
             for (std::int64_t my = 0; my < micro_bricks.counts()[1]; ++my) {
-                survey_row(codes, micro_bricks, my, mz, extremes);
+                survey_row(codes, own, micro_bricks, reaches, my, mz, within, all);
             }
         },
         stop);
 }
 
-template bool survey(const CodesOfBox<std::uint8_t>&, CodeGrid&, base::Workers&, const std::stop_token&);
-template bool survey(const CodesOfBox<std::uint16_t>&, CodeGrid&, base::Workers&, const std::stop_token&);
+template bool survey(const CodesOfBox<std::uint8_t>&, const volume::Box&, CodeGrid&, std::span<CodeRange>,
+                     base::Workers&, const std::stop_token&);
+template bool survey(const CodesOfBox<std::uint16_t>&, const volume::Box&, CodeGrid&, std::span<CodeRange>,
+                     base::Workers&, const std::stop_token&);
 
 void summarise(const CodeGrid& fine, CodeGrid& coarse) {
     const std::int64_t ratio = coarse.edge() / fine.edge();

@@ -17,15 +17,16 @@ struct CodesOfBox {
     std::ptrdiff_t row_stride, plane_stride;
 };
 
-// Fills in the ranges of a grid of edge micro_edge over the box; false if stopped before.
+// Fills in the ranges of a grid over `own`, a box inside that of the codes, and, as `reaches`, what they
+// would be with one node more on every side, where there is one; false if stopped before.
 template <class Code>
-bool survey(const CodesOfBox<Code>& codes, CodeGrid& micro_bricks, base::Workers& workers,
-            const std::stop_token& stop);
+bool survey(const CodesOfBox<Code>& codes, const volume::Box& own, CodeGrid& micro_bricks,
+            std::span<CodeRange> reaches, base::Workers& workers, const std::stop_token& stop);
 
-extern template bool survey(const CodesOfBox<std::uint8_t>&, CodeGrid&, base::Workers&,
-                            const std::stop_token&);
-extern template bool survey(const CodesOfBox<std::uint16_t>&, CodeGrid&, base::Workers&,
-                            const std::stop_token&);
+extern template bool survey(const CodesOfBox<std::uint8_t>&, const volume::Box&, CodeGrid&,
+                            std::span<CodeRange>, base::Workers&, const std::stop_token&);
+extern template bool survey(const CodesOfBox<std::uint16_t>&, const volume::Box&, CodeGrid&,
+                            std::span<CodeRange>, base::Workers&, const std::stop_token&);
 
 // What a coarser grid over the same box makes of a finer one's ranges.
 void summarise(const CodeGrid& fine, CodeGrid& coarse);

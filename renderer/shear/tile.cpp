@@ -42,6 +42,7 @@ Tile<Code>::Tile(const BrickVolume& volume, const Classification& classification
     : bricks_(volume.bricks()),
       codes_(volume.level(plan.level())),
       classification_(classification),
+      nodes_(classification.segments ? codes_.box() : codes_.own()),
       plan_(plan),
       met_(met),
       voxels_(codes_, plan),
@@ -86,7 +87,7 @@ void Tile<Code>::prepare_rays() {
     for (Plane* const plane : {&planes_->r, &planes_->g, &planes_->b, &planes_->a}) {
         plane->fill(0);
     }
-    const float unit = classification_.table.depth_unit();
+    const float unit = classification_.segments ? 1 : classification_.table.depth_unit();
     float longest = 0;
     for (int j = rect_.y0; j < rect_.y1; ++j) {
         const std::span<float> row(&planes_->steps[slot(rect_.x0, j)],
@@ -117,7 +118,7 @@ template <class Code>
 std::int64_t Tile<Code>::micro_layer(std::int64_t k) const {
     const int axis = plan_.face().axis;
     const auto plane = static_cast<std::int64_t>(plan_.node_place(k));
-    const std::int64_t cell = std::min(plane, codes_.box().hi[static_cast<std::size_t>(axis)] - 1);
+    const std::int64_t cell = std::min(plane, codes_.own().hi[static_cast<std::size_t>(axis)] - 1);
     return cell / micro_edge - codes_.micro_bricks().first(axis);
 }
 
@@ -142,7 +143,7 @@ Slice<Code> Tile<Code>::slice_of(std::int64_t k) const {
 template <class Code>
 void Tile<Code>::render_slices(Slices slices, std::span<const std::int64_t> numbers) {
     const MicroLayer layer(codes_, classification_, plan_, micro_layer(numbers.front()));
-    const VoxelRegion region = region_of(slices, numbers);
+    const VoxelRegion region = region_of(slices, numbers, codes_.own());
     const CodeGrid& grid = codes_.micro_bricks();
     const std::array<int, 2> axes{plan_.fast_axis(), plan_.slow_axis()};
     const auto micro_run = [&](std::size_t n) {
@@ -198,7 +199,27 @@ void Tile<Code>::render_part(Slices slices, std::span<const std::int64_t> number
     if (content == Content::transparent) {
         return;
     }
-    const VoxelRegion region = region_of(slices, numbers);
+    if (classification_.segments) {
+        render_segments(slices, numbers, content, whole);
+        return;
+    }
+    const VoxelRegion region = region_of(slices, numbers, nodes_);
+    Slab<Code> slab = slab_of(slices, numbers, region, content, whole);
+    for (std::size_t n = 0; n < slices.size(); ++n) {
+        Slice<Code>& slice = slab.slices[n];
+        slice.lengths = lengths_on(numbers[n], slice.pixels, planes_->lengths[n]);
+    }
+    const std::uint64_t taken = composite_slab(slab, classification_.table, rays());
+    samples_ += taken;
+    if (taken > 0) {
+        note_met(region);
+    }
+}
+
+// The slices with the region of voxels that their samples lie between.
+template <class Code>
+Slab<Code> Tile<Code>::slab_of(Slices slices, std::span<const std::int64_t> numbers,
+                               const VoxelRegion& region, Content content, bool whole) {
     const auto place = voxels_.find(region, whole ? with_block(region) : region);
     Slab<Code> slab{.fast_first = region.lo[0],
                     .slow_first = region.lo[1],
@@ -219,13 +240,8 @@ void Tile<Code>::render_part(Slices slices, std::span<const std::int64_t> number
         slice = slices[n];
         slice.voxels = place.first + (plane - region.lo[2]) * place.plane_stride;
         slice.next = static_cast<double>(plane) < w ? slice.voxels + place.plane_stride : nullptr;
-        slice.lengths = lengths_on(numbers[n], slice.pixels, planes_->lengths[n]);
     }
-    const std::uint64_t taken = composite_slab(slab, classification_.table, rays());
-    samples_ += taken;
-    if (taken > 0) {
-        note_met(region);
-    }
+    return slab;
 }
 
 template <class Code>

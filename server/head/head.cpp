@@ -265,7 +265,7 @@ void Head::begin_frames(wire::LinkId client, Session& session, wire::Time now, E
         const wire::View& view = *session.latest;
         const view::Factorisation factorisation =
             view::factorise(view.camera, view.size, roster_.cube().lattice,
-                            view::sampling(view.quality, view.level_of_detail));
+                            view::sampling(view.quality, view.level_of_detail, view.classify));
         pb::Render render;
         render.set_frame(++last_frame_);
         *render.mutable_factorisation() = wire::to_wire(factorisation);

@@ -53,8 +53,8 @@ class Single {
         : volume_(load(path, mapping, workers_)), lattice_{.n = volume_.cube(), .spacing = spacing} {}
 
     image::Image<image::Rgba8> draw(const wire::View& v) {
-        const auto factorisation =
-            view::factorise(v.camera, v.size, lattice_, view::sampling(v.quality, v.level_of_detail));
+        const auto factorisation = view::factorise(v.camera, v.size, lattice_,
+                                                   view::sampling(v.quality, v.level_of_detail, v.classify));
         const auto windows = shear::render(volume_, factorisation, v.tf, workers_);
         return image::warp(factorisation, windows, v.camera, v.size, v.tf.background, workers_);
     }

@@ -128,6 +128,20 @@ TEST(Bytes, OfAnExactView) {
     EXPECT_EQ(exact.substr(header_digits), with_levels.substr(header_digits) + "4001");
 }
 
+// And what pre-integrated classification does, of a view and of a factorisation.
+TEST(Bytes, OfPreIntegratedClassification) {
+    constexpr std::size_t header_digits = 2 * header_bytes;
+    const auto body = [](const Message& whole) { return hex(encode_head(whole)).substr(header_digits); };
+    View view = view_request();
+    const std::string post = body(message(to_wire(view)));
+    view.classify = view::Classify::pre_integrated;
+    EXPECT_EQ(body(message(to_wire(view))), post + "4801");
+    pb::Factorisation plain = to_wire(factorisation());
+    view::Factorisation changed = factorisation();
+    changed.classify = view::Classify::pre_integrated;
+    EXPECT_EQ(to_wire(changed).SerializeAsString(), plain.SerializeAsString() + "\x38\x01");
+}
+
 TEST(Bytes, OfEveryMessageAreReadBack) {
     for (const Message& example : examples()) {
         const std::vector<std::byte> head = encode_head(example);

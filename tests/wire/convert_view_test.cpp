@@ -40,7 +40,9 @@ TEST(ViewConversion, ThereAndBack) {
             EXPECT_EQ(back.quality, view.quality);
             EXPECT_EQ(back.deflate, view.deflate);
             EXPECT_EQ(back.level_of_detail, view.level_of_detail);
+            EXPECT_EQ(back.classify, view.classify);
             view.level_of_detail = !view.level_of_detail;
+            view.classify = view.level_of_detail ? view::Classify::post : view::Classify::pre_integrated;
         }
     }
 }
@@ -87,6 +89,11 @@ TEST(ViewConversion, HostileSizesAndChoices) {
     });
     for (const int quality : {3, -1, 99}) {
         refused("quality", [&](pb::SetView& v) { v.set_quality(static_cast<pb::Quality>(quality)); });
+    }
+    for (const int classification : {2, -1, 1 << 30}) {
+        refused("classification", [&](pb::SetView& v) {
+            v.set_classification(static_cast<pb::Classification>(classification));
+        });
     }
     refused("transfer function", [](pb::SetView& v) { v.clear_transfer_function(); });
 }
