@@ -49,6 +49,26 @@ std::vector<std::uint8_t> any_within(const CodeGrid& bricks, const CodeGrid& mic
     return any;
 }
 
+void classify_samples(const BrickVolume& volume, base::Workers& workers, Classification& classification) {
+    const OpacityTable& table = classification.table;
+    for (int level = 0; level < volume.levels(); ++level) {
+        classification.micro_bricks.push_back(
+            contents_of(volume.level(level).micro_bricks().ranges(), table, workers));
+    }
+    for (const CodeRange& range : volume.bricks().ranges()) {
+        classification.opaque.push_back(static_cast<std::uint8_t>(table.any_opacity(range.min, range.max)));
+    }
+}
+
+void classify_segments(const BrickVolume& volume, base::Workers& workers, Classification& classification) {
+    for (int level = 0; level < volume.levels(); ++level) {
+        classification.micro_bricks.push_back(
+            contents_of(volume.level(level).reaches(), *classification.segments, workers));
+    }
+    classification.opaque =
+        any_within(volume.bricks(), volume.level(0).micro_bricks(), classification.micro_bricks.front());
+}
+
 }  // namespace
 
 Classification classify(const BrickVolume& volume, const view::TransferFunction& tf, view::Classify how,
@@ -56,18 +76,12 @@ Classification classify(const BrickVolume& volume, const view::TransferFunction&
     const int codes = volume.mapping().levels();
     Classification classification{
         .table = OpacityTable(tf, codes), .segments = {}, .micro_bricks = {}, .opaque = {}};
-    const OpacityTable& table = classification.table;
     if (how == view::Classify::pre_integrated) {
-        classification.segments.emplace(tf, codes, table);
+        classification.segments.emplace(tf, codes, classification.table);
+        classify_segments(volume, workers, classification);
+    } else {
+        classify_samples(volume, workers, classification);
     }
-    for (int level = 0; level < volume.levels(); ++level) {
-        const CodeVolume& nodes = volume.level(level);
-        classification.micro_bricks.push_back(
-            classification.segments ? contents_of(nodes.reaches(), *classification.segments, workers)
-                                    : contents_of(nodes.micro_bricks().ranges(), table, workers));
-    }
-    classification.opaque =
-        any_within(volume.bricks(), volume.level(0).micro_bricks(), classification.micro_bricks.front());
     return classification;
 }
 

@@ -31,7 +31,7 @@ class SegmentTable {
   public:
     // Integrals up to a node: each the sum of both its parts. Depth is in halvings of light per world unit of
     // length and node, as if s rose by one node; r, g and b are OpacityTable::channels().
-    struct Node {
+    struct alignas(32) Node {
         float depth, r, g, b;
         float depth_rest, r_rest, g_rest, b_rest;
     };

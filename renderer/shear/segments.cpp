@@ -66,80 +66,88 @@ HWY_INLINE void find_nodes(const Slab<Code>& slab, const Slice<Code>& slice, int
     }
 }
 
-// What a vector of segments has of depth, r, g and b, in all. Two nodes are near one another as a rule, and
-// each is read whole: on this side of a gather for every channel.
-template <class D>
-struct Integrals {
-    hn::Vec<D> depth, r, g, b;
+// A row of segments, with room for a vector more. In steps that each go over all of it: what is stored in
+// parts of a vector is not to be loaded as a whole at once.
+struct SegmentRow {
+    static constexpr std::size_t room = widest_tile + room_for_a_vector;
 
-    HWY_INLINE Integrals(D d, const SegmentTable& table, const std::int32_t* from, const std::int32_t* to) {
-        HWY_ALIGN std::array<float, 4 * hn::MaxLanes(D())> sums;
-        const float* const nodes = &table.nodes()->depth;
-        for (std::size_t n = 0; n < hn::Lanes(d); ++n) {
-            const float* const first = nodes + std::ptrdiff_t{from[n]} * 8;
-            const float* const last = nodes + std::ptrdiff_t{to[n]} * 8;
-            for (std::size_t channel = 0; channel < 4; ++channel) {
-                sums[4 * n + channel] =
-                    (last[channel] - first[channel]) + (last[channel + 4] - first[channel + 4]);
-            }
-        }
-        hn::LoadInterleaved4(d, sums.data(), depth, r, g, b);
-    }
+    alignas(64) std::array<std::int32_t, room> from, to;  // nodes, not alike
+    alignas(64) std::array<float, room> weights;          // how much of the length counts: 0, 1/2 or 1
+    alignas(64) std::array<float, 4 * room> sums;         // of depth, r, g and b between the nodes
 };
 
-// The pixels [i0, i1) of row j of a segment. front, back, a_before: of those pixels.
 template <bool blanks>
-HWY_INLINE std::uint64_t composite_span(const Segment& segment, const Span& span, int j,
-                                        const std::int32_t* front, const std::int32_t* back,
-                                        const SegmentTable& table, const float* a_before, const Rays& rays) {
+HWY_INLINE void find_ends(const std::int32_t* front, const std::int32_t* back, int width, SegmentRow& row) {
     const hn::ScalableTag<float> d;
-    using D = decltype(d);
-    const hn::RebindToSigned<D> di;
+    const hn::RebindToSigned<decltype(d)> di;
+    for (int n = 0; n < width; n += static_cast<int>(hn::Lanes(d))) {
+        const auto at = static_cast<std::size_t>(n);
+        auto from = hn::LoadU(di, front + n);
+        auto to = hn::LoadU(di, back + n);
+        if constexpr (blanks) {
+            const auto half = hn::Set(d, 0.5F);
+            const auto has_from = hn::Ne(from, hn::Set(di, blank_node));
+            const auto has_to = hn::Ne(to, hn::Set(di, blank_node));
+            hn::Store(hn::Add(hn::IfThenElseZero(hn::RebindMask(d, has_from), half),
+                              hn::IfThenElseZero(hn::RebindMask(d, has_to), half)),
+                      d, &row.weights[at]);
+            const auto either = hn::IfThenElse(has_from, from, hn::IfThenElseZero(has_to, to));
+            to = hn::IfThenElse(has_to, to, either);
+            from = either;
+        }
+        const auto apart = hn::IfThenElseZero(hn::Eq(from, to), hn::Set(di, 1));
+        hn::Store(hn::Sub(from, apart), di, &row.from[at]);
+        hn::Store(hn::Add(to, apart), di, &row.to[at]);
+    }
+}
+
+// Two nodes are near one another as a rule, and are read whole: cheaper than a gather for every channel.
+HWY_INLINE void sum_between(const SegmentTable& table, int width, SegmentRow& row) {
+    const hn::CappedTag<float, 4> channels;
+    const float* const nodes = &table.nodes()->depth;
+    for (std::size_t n = 0; n < static_cast<std::size_t>(width); ++n) {
+        const float* const from = nodes + std::ptrdiff_t{row.from[n]} * 8;
+        const float* const to = nodes + std::ptrdiff_t{row.to[n]} * 8;
+        for (std::size_t c = 0; c < 4; c += hn::Lanes(channels)) {
+            const auto whole = hn::Sub(hn::Load(channels, to + c), hn::Load(channels, from + c));
+            const auto rest = hn::Sub(hn::Load(channels, to + 4 + c), hn::Load(channels, from + 4 + c));
+            hn::Store(hn::Add(whole, rest), channels, &row.sums[4 * n + c]);
+        }
+    }
+}
+
+// The pixels of a span of row j of a segment. a_before: of those pixels.
+template <bool blanks>
+HWY_INLINE std::uint64_t composite_row_of_segments(const Segment& segment, const Span& span, int j,
+                                                   const SegmentRow& row, const float* a_before,
+                                                   const Rays& rays) {
+    const hn::ScalableTag<float> d;
+    const hn::RebindToSigned<decltype(d)> di;
     const auto zero = hn::Zero(d);
-    HWY_ALIGN std::array<std::int32_t, hn::MaxLanes(D())> from, to;
     std::uint64_t taken = 0;
     const int width = span.i1 - span.i0;
     for (int n = 0; n < width; n += static_cast<int>(hn::Lanes(d))) {
-        auto live = hn::And(hn::FirstN(d, static_cast<std::size_t>(width - n)),
-                            hn::Lt(hn::LoadU(d, a_before + n), hn::Set(d, opaque_enough)));
-        if (hn::AllFalse(d, live)) {
-            continue;
-        }
+        const auto at = static_cast<std::size_t>(n);
+        const auto live = hn::And(hn::FirstN(d, static_cast<std::size_t>(width - n)),
+                                  hn::Lt(hn::LoadU(d, a_before + n), hn::Set(d, opaque_enough)));
         taken += hn::CountTrue(d, live);
-        auto first = hn::LoadU(di, front + n);
-        auto last = hn::LoadU(di, back + n);
         const std::ptrdiff_t ray = j * rays.stride + span.i0 + n;
-        auto length = hn::LoadU(d, segment.lengths + ray);
+        auto length = hn::IfThenElseZero(live, hn::LoadU(d, segment.lengths + ray));
         if constexpr (blanks) {
-            const auto first_valid = hn::Ne(first, hn::Set(di, blank_node));
-            const auto last_valid = hn::Ne(last, hn::Set(di, blank_node));
-            const auto both = hn::RebindMask(d, hn::And(first_valid, last_valid));
-            live = hn::And(live, hn::RebindMask(d, hn::Or(first_valid, last_valid)));
-            length = hn::IfThenElse(both, length, hn::Mul(length, hn::Set(d, 0.5F)));
-            const auto known = hn::IfThenElse(first_valid, first, last);
-            last = hn::IfThenElse(last_valid, last, first);
-            first = known;
+            length = hn::Mul(length, hn::Load(d, &row.weights[at]));
         }
-        // Beyond the row's pixels may lie anything.
-        first = hn::IfThenElseZero(hn::RebindMask(di, live), first);
-        last = hn::IfThenElseZero(hn::RebindMask(di, live), last);
-        const auto alike = hn::IfThenElseZero(hn::Eq(first, last), hn::Set(di, 1));
-        first = hn::Sub(first, alike);
-        last = hn::Add(last, alike);
-        hn::Store(first, di, from.data());
-        hn::Store(last, di, to.data());
-        const Integrals<D> sum(d, table, from.data(), to.data());
-        const auto nodes = hn::ConvertTo(d, hn::Sub(last, first));
-        const auto extinction = hn::Max(hn::Div(sum.depth, nodes), zero);
-        const auto depth = hn::IfThenElseZero(live, hn::Mul(extinction, length));
+        hn::Vec<decltype(d)> sum, r, g, b;
+        hn::LoadInterleaved4(d, &row.sums[4 * at], sum, r, g, b);
+        const auto nodes = hn::ConvertTo(d, hn::Sub(hn::Load(di, &row.to[at]), hn::Load(di, &row.from[at])));
+        const auto depth = hn::Mul(hn::Max(hn::Div(sum, nodes), zero), length);
         const auto seen = hn::Gt(depth, zero);
         if (hn::AllFalse(d, seen)) {
             continue;
         }
-        const auto share = hn::IfThenElseZero(seen, hn::Div(hn::Set(d, 1.0F), sum.depth));
-        Gathered<D> gathered(d, rays, ray);
-        gathered.put_behind(opacity_of_halvings(d, depth), hn::Mul(sum.r, share), hn::Mul(sum.g, share),
-                            hn::Mul(sum.b, share));
+        const auto share = hn::IfThenElseZero(seen, hn::Div(hn::Set(d, 1.0F), sum));
+        Gathered<decltype(d)> gathered(d, rays, ray);
+        gathered.put_behind(hn::IfThenElseZero(seen, opacity_of_halvings(d, depth)), hn::Mul(r, share),
+                            hn::Mul(g, share), hn::Mul(b, share));
         gathered.store(d, rays, ray);
     }
     return taken;
@@ -161,6 +169,7 @@ std::uint64_t composite_segments_of_chunk(const SegmentSlab<Code>& slab, const v
         }
     }
     std::array<float, widest_tile + ray_padding> a_before;
+    SegmentRow row{};
     std::uint64_t taken = 0;
     for (int j = chunk.y0; j < chunk.y1; ++j) {
         fetching.step();
@@ -183,8 +192,10 @@ std::uint64_t composite_segments_of_chunk(const SegmentSlab<Code>& slab, const v
                     const auto k = static_cast<std::size_t>(slice);
                     return &nodes[k][static_cast<std::size_t>(span.i0 - spans[k].i0)];
                 };
-                taken += composite_span<blanks>(segment, span, j, at(segment.front), at(segment.back), table,
-                                                a_before.data() + span.i0, rays);
+                find_ends<blanks>(at(segment.front), at(segment.back), span.i1 - span.i0, row);
+                sum_between(table, span.i1 - span.i0, row);
+                taken +=
+                    composite_row_of_segments<blanks>(segment, span, j, row, a_before.data() + span.i0, rays);
             }
         }
     }

@@ -149,8 +149,11 @@ TEST(FactorisationConversion, ThereAndBack) {
         EXPECT_EQ(back.lattice.spacing, f.lattice.spacing);
         EXPECT_EQ(back.eye, f.eye);
         EXPECT_EQ(back.direction, f.direction);
+        EXPECT_EQ(back.classify, f.classify);
         EXPECT_EQ(back.faces, f.faces);
     };
+    expect_same();
+    f.classify = view::Classify::pre_integrated;
     expect_same();
     f.projection = view::Projection::parallel;
     f.faces.pop_back();
@@ -203,6 +206,11 @@ TEST(FactorisationConversion, Hostile) {
     }
     for (const int exponent : {-2, 4, 6, 1000}) {  // this cube has three levels besides its voxels
         refused("slice_exponent", [&](pb::Factorisation& f) { f.set_slice_exponent(exponent); });
+    }
+    for (const int classification : {2, -1, 1 << 30}) {
+        refused("classification", [&](pb::Factorisation& f) {
+            f.set_classification(static_cast<pb::Classification>(classification));
+        });
     }
     refused("projection", [](pb::Factorisation& f) { f.set_projection(static_cast<pb::Projection>(7)); });
     refused("lattice", [](pb::Factorisation& f) { f.clear_lattice(); });
