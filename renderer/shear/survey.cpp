@@ -38,18 +38,21 @@ struct Extremes {
         std::fill(greatest.begin(), greatest.end(), Code{0});
     }
     void add(const Code* row) {
-        for (std::size_t x = 0; x < least.size(); ++x) {
-            least_less_one[x] = std::min(least_less_one[x], static_cast<Code>(row[x] - 1));
-            least[x] = std::min(least[x], row[x]);
-            greatest[x] = std::max(greatest[x], row[x]);
+        Code* const low_less_one = least_less_one.data();
+        Code* const low = least.data();
+        Code* const high = greatest.data();
+        for (std::size_t x = 0, n = least.size(); x < n; ++x) {
+            low_less_one[x] = std::min(low_less_one[x], static_cast<Code>(row[x] - 1));
+            low[x] = std::min(low[x], row[x]);
+            high[x] = std::max(high[x], row[x]);
         }
     }
     void add(const Extremes& other) {
-        for (std::size_t x = 0; x < least.size(); ++x) {
-            least_less_one[x] = std::min(least_less_one[x], other.least_less_one[x]);
-            least[x] = std::min(least[x], other.least[x]);
-            greatest[x] = std::max(greatest[x], other.greatest[x]);
-        }
+        const auto least_of = [](Code a, Code b) { return std::min(a, b); };
+        std::ranges::transform(least_less_one, other.least_less_one, least_less_one.begin(), least_of);
+        std::ranges::transform(least, other.least, least.begin(), least_of);
+        std::ranges::transform(greatest, other.greatest, greatest.begin(),
+                               [](Code a, Code b) { return std::max(a, b); });
     }
     CodeRange over(const Planes& columns) const {
         Code low_less_one = std::numeric_limits<Code>::max();

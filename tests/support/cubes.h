@@ -39,6 +39,7 @@ inline std::vector<wire::View> twenty_views(const view::Lattice& lattice) {
                     : i % 3 == 1 ? view::Quality::normal
                                  : view::Quality::draft;
         v.deflate = i % 2 == 0;
+        v.classify = i / 4 % 2 == 0 ? view::Classify::post : view::Classify::pre_integrated;
         v.tf = view::default_transfer_function();
         v.tf.opacity_pins = {view::Ramp{.x0 = 0.1, .a0 = 0, .x1 = 1, .a1 = i % 5 == 0 ? 0.9 : 0.15}};
         views.push_back(std::move(v));
