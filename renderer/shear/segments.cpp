@@ -18,7 +18,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace shearwater::shear::HWY_NAMESPACE {
 
-// Of a row of pixels of a chunk: the node of each one's sample on a slice, or `blank_node`.
+// Of a row of pixels of a chunk: the node of each one's sample on a slice, or `blank_node`; and some node for
+// as many as a vector beyond them.
 using NodeRow = std::array<std::int32_t, widest_tile + room_for_a_vector>;
 inline constexpr std::int32_t blank_node = -1;
 
@@ -41,7 +42,8 @@ HWY_INLINE void find_nodes(const Slab<Code>& slab, const Slice<Code>& slice, int
     const hn::RebindToSigned<decltype(d)> di;
     Row row;
     interpolate_row<blanks>(slab, slice, j, columns, row);
-    for (int n = 0; n < width; n += static_cast<int>(hn::Lanes(d))) {
+    int n = 0;
+    for (; n < width; n += static_cast<int>(hn::Lanes(d))) {
         const auto at = static_cast<std::size_t>(n);
         const auto cell = hn::Load(di, &columns.cells[at]);
         const auto fraction = hn::Load(d, &columns.fractions[at]);
@@ -64,10 +66,11 @@ HWY_INLINE void find_nodes(const Slab<Code>& slab, const Slice<Code>& slice, int
             hn::StoreU(node_of(code), di, nodes + n);
         }
     }
+    hn::StoreU(hn::Zero(di), di, nodes + n);
 }
 
-// A row of segments, with room for a vector more. In steps that each go over all of it: what is stored in
-// parts of a vector is not to be loaded as a whole at once.
+// A row of segments, in whole vectors. In steps that each go over all of it: what is stored in parts of a
+// vector is not to be loaded as a whole at once.
 struct SegmentRow {
     static constexpr std::size_t room = widest_tile + room_for_a_vector;
 
@@ -105,7 +108,9 @@ HWY_INLINE void find_ends(const std::int32_t* front, const std::int32_t* back, i
 HWY_INLINE void sum_between(const SegmentTable& table, int width, SegmentRow& row) {
     const hn::CappedTag<float, 4> channels;
     const float* const nodes = &table.nodes()->depth;
-    for (std::size_t n = 0; n < static_cast<std::size_t>(width); ++n) {
+    const std::size_t lanes = hn::Lanes(hn::ScalableTag<float>());
+    const std::size_t count = (static_cast<std::size_t>(width) + lanes - 1) / lanes * lanes;
+    for (std::size_t n = 0; n < count; ++n) {
         const float* const from = nodes + std::ptrdiff_t{row.from[n]} * 8;
         const float* const to = nodes + std::ptrdiff_t{row.to[n]} * 8;
         for (std::size_t c = 0; c < 4; c += hn::Lanes(channels)) {
@@ -161,7 +166,7 @@ std::uint64_t composite_segments_of_chunk(const SegmentSlab<Code>& slab, const v
     const auto slices = static_cast<std::size_t>(samples.count);
     std::array<Columns, Slab<Code>::max_ends> columns;
     std::array<Span, Slab<Code>::max_ends> spans;
-    std::array<NodeRow, Slab<Code>::max_ends> nodes{};
+    std::array<NodeRow, Slab<Code>::max_ends> nodes;
     for (std::size_t k = 0; k < slices; ++k) {
         spans[k] = within(samples.slices[k].pixels, chunk);
         if (!spans[k].empty()) {
@@ -169,7 +174,7 @@ std::uint64_t composite_segments_of_chunk(const SegmentSlab<Code>& slab, const v
         }
     }
     std::array<float, widest_tile + ray_padding> a_before;
-    SegmentRow row{};
+    SegmentRow row;
     std::uint64_t taken = 0;
     for (int j = chunk.y0; j < chunk.y1; ++j) {
         fetching.step();

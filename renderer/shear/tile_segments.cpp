@@ -30,7 +30,7 @@ std::array<Rect, 4> left_over(const Rect& whole, const Rect& part) {
 template <class Code>
 class Tile<Code>::Segments {
   public:
-    explicit Segments(Tile& tile) : tile_(tile), plan_(tile.plan_), planes_(*tile.planes_) {}
+    explicit Segments(Tile& tile) : tile_(tile), plan_(tile.plan_), planes_(*tile.planes_) { clear(); }
 
     bool has_room() const { return slab.samples.count + 2 <= Slab<Code>::max_ends; }
 
@@ -65,8 +65,8 @@ class Tile<Code>::Segments {
 
     void clear() { slab.count = slab.samples.count = 0; }
 
-    SegmentSlab<Code> slab{};
-    std::array<std::int64_t, Slab<Code>::max_ends> numbers{};  // of the slab's slices
+    SegmentSlab<Code> slab;
+    std::array<std::int64_t, Slab<Code>::max_ends> numbers;  // of the slab's slices
 
   private:
     // Counted from the tile's first.
