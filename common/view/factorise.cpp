@@ -285,7 +285,8 @@ int level_of_detail(const Factorisation& factorisation, const std::vector<Plan>&
         least = std::min(least, least_voxels_per_pixel(factorisation, plan));
     }
     int level = 0;
-    while (level < volume::coarsest_level(factorisation.lattice.n) && std::ldexp(1.0, level + 1) <= least) {
+    while (level < volume::coarsest_level(factorisation.lattice.n) &&
+           std::ldexp(1.0, level + 1) <= least) {
         ++level;
     }
     return level;

@@ -141,5 +141,18 @@ TEST(Skipping, LeavesOutNoSegmentThatIsSeen) {
     }
 }
 
+TEST(Classifier, ClassifiesAnewForTheOtherWay) {
+    base::Workers workers(1);
+    FloatCube cube = shells({20, 20, 20});
+    const auto volume = bricks_of(cube, workers);
+    shear::Classifier classifier;
+    const auto is_pre_integrated = [&](Classify how) {
+        return classifier.classify(volume, hat(0.1), how, workers).segments.has_value();
+    };
+    EXPECT_FALSE(is_pre_integrated(Classify::post));
+    EXPECT_TRUE(is_pre_integrated(Classify::pre_integrated));
+    EXPECT_FALSE(is_pre_integrated(Classify::post));
+}
+
 }  // namespace
 }  // namespace shearwater::test
