@@ -18,6 +18,7 @@ constexpr int unusable = 2;
 struct Options {
     std::string connect, secret_file, tf_file, screenshot;
     std::string size = "1280x800";
+    std::string classify = "post";
     std::string lod;
     ui::WindowOptions window;
     model::Effort effort;
@@ -37,6 +38,10 @@ void declare(CLI::App& app, Options& options) {
         "--secret-file", options.secret_file,
         fmt::format("A file of mode 0600 with the server's secret; else ${}", link::Secret::variable));
     app.add_option("--tf", options.tf_file, "Begin with the transfer function of this TOML file");
+    app.add_option("--classify", options.classify,
+                   "Where the transfer function applies: to samples, or to all values between two")
+        ->check(CLI::IsMember({"post", "pre-integrated"}))
+        ->capture_default_str();
     app.add_option("--lod", options.lod,
                    "off: every voxel counts, however small in the picture; else as the server has it")
         ->check(CLI::IsMember({"on", "off"}));
@@ -86,11 +91,13 @@ base::Status run(Options options) {
         return window.error();
     }
     ui::Network network(*server, std::move(*secret), ui::Window::wake);
-    ui::App app(**window, network,
-                {.tf = std::move(*tf),
-                 .level_of_detail = options.lod.empty() ? std::nullopt : std::optional(options.lod == "on"),
-                 .effort = options.effort,
-                 .screenshot = options.screenshot});
+    ui::App app(
+        **window, network,
+        {.tf = std::move(*tf),
+         .level_of_detail = options.lod.empty() ? std::nullopt : std::optional(options.lod == "on"),
+         .classify = options.classify == "post" ? view::Classify::post : view::Classify::pre_integrated,
+         .effort = options.effort,
+         .screenshot = options.screenshot});
     return app.run();
 }
 

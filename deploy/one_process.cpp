@@ -88,7 +88,7 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
         clock.lap();
         const auto factorisation = view::factorise(*camera, *size, lattice, view.sampling());
         shear::RenderStats stats;
-        const auto& classification = classifier.classify(*volume, tf, workers);
+        const auto& classification = classifier.classify(*volume, tf, factorisation.classify, workers);
         const auto windows = shear::render(*volume, classification, factorisation, workers, &stats);
         const double render = clock.lap();
         picture.image = image::warp(factorisation, windows, *camera, *size, tf.background, workers);

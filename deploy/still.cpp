@@ -24,6 +24,7 @@ Still::Still(wire::Address server, ViewOptions options, view::TransferFunction t
     view_.tf = std::move(tf);
     view_.quality = options_.quality_value();
     view_.level_of_detail = options_.level_of_detail();
+    view_.classify = options_.classify_value();
 }
 
 std::vector<wire::NetEffect> Still::start(wire::Time now) {

@@ -13,6 +13,7 @@ const std::string program = "shearwater view";
 struct Flags {
     TargetOptions target;
     std::string tf_file;
+    std::string classify = "post";
     std::string lod;
     double target_rate = 20;
 };
@@ -27,6 +28,7 @@ base::Result<int> view(const Flags& flags) {
         return target.error();
     }
     std::vector<std::string> arguments{"--connect", wire::to_string(target->server)};
+    arguments.insert(arguments.end(), {"--classify", flags.classify});
     if (!flags.lod.empty()) {
         arguments.insert(arguments.end(), {"--lod", flags.lod});
     }
@@ -62,6 +64,7 @@ base::Result<int> view(const Flags& flags) {
 Run add_view(CLI::App& app) {
     auto flags = std::make_shared<Flags>();
     app.add_option("--tf", flags->tf_file, "transfer function to begin with, a TOML file");
+    add_classify(app, flags->classify);
     add_lod(app, flags->lod);
     app.add_option("--target-rate", flags->target_rate,
                    "frames a second to hold while the view moves, by lesser quality where need be")

@@ -30,7 +30,16 @@ void ViewOptions::add_to(CLI::App& app) {
         ->check(CLI::IsMember({"draft", "normal", "high"}))
         ->capture_default_str()
         ->group(group);
+    add_classify(app, classify, group);
     add_lod(app, lod, group);
+}
+
+void add_classify(CLI::App& app, std::string& classify, const std::string& group) {
+    app.add_option("--classify", classify,
+                   "where the transfer function applies: to samples, or to all values between two")
+        ->check(CLI::IsMember({"post", "pre-integrated"}))
+        ->capture_default_str()
+        ->group(group);
 }
 
 void add_lod(CLI::App& app, std::string& lod, const std::string& group) {
@@ -71,6 +80,10 @@ view::Quality ViewOptions::quality_value() const {
     return quality == "draft"  ? view::Quality::draft
            : quality == "high" ? view::Quality::high
                                : view::Quality::normal;
+}
+
+view::Classify ViewOptions::classify_value() const {
+    return classify == "pre-integrated" ? view::Classify::pre_integrated : view::Classify::post;
 }
 
 base::Result<view::Camera> ViewOptions::camera(const view::Lattice& lattice) const {

@@ -1,5 +1,6 @@
 #pragma once
-// The options of a still picture: camera, size, transfer function, quality, level of detail.
+// The options of a still picture: camera, size, transfer function, quality, classification, level of
+// detail.
 
 #include <CLI/CLI.hpp>
 #include <optional>
@@ -13,6 +14,8 @@
 
 namespace shearwater::deploy {
 
+// --classify post|pre-integrated.
+void add_classify(CLI::App& app, std::string& classify, const std::string& group = "Options");
 // --lod on|off.
 void add_lod(CLI::App& app, std::string& lod, const std::string& group = "Options");
 
@@ -24,6 +27,7 @@ struct ViewOptions {
     std::string size = "512x512";
     std::string tf_file;
     std::string quality = "normal";
+    std::string classify = "post";
     std::string lod;  // "on" or "off"; empty: as the server has it
 
     void add_to(CLI::App& app);
@@ -35,9 +39,10 @@ struct ViewOptions {
     std::optional<bool> level_of_detail() const {
         return lod.empty() ? std::nullopt : std::optional(lod == "on");
     }
+    view::Classify classify_value() const;
     // Without a server.
     view::Sampling sampling() const {
-        return view::sampling(quality_value(), level_of_detail().value_or(true));
+        return view::sampling(quality_value(), level_of_detail().value_or(true), classify_value());
     }
     // The camera for a cube, checked.
     base::Result<view::Camera> camera(const view::Lattice& lattice) const;

@@ -267,7 +267,8 @@ void Session::send_view(wire::Time now) {
                           .quality = quality_,
                           .deflate = deflate_,
                           .level_of_detail = wish_->level_of_detail,
-                          .sketch = true};
+                          .sketch = true,
+                          .classify = wish_->classify};
     effects_.push_back(wire::Send{link_, wire::message(wire::to_wire(view))});
     sent_.push_back({revision_, view.size, view.quality, now, tree_.nodes.empty() || tree_.ready});
     sent_at_ = now;

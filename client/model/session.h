@@ -30,6 +30,7 @@ struct Wish {
     view::TransferFunction tf = view::default_transfer_function();
     view::ImageSize size;                 // at most what view::validate allows
     std::optional<bool> level_of_detail;  // else as the server has it
+    view::Classify classify = view::Classify::post;
     bool operator==(const Wish&) const = default;
 };
 

@@ -12,6 +12,7 @@ namespace shearwater::ui {
 struct AppOptions {
     view::TransferFunction tf = view::default_transfer_function();
     std::optional<bool> level_of_detail;
+    view::Classify classify = view::Classify::post;
     model::Effort effort;
     std::string screenshot;  // a file to write the window to once a whole high picture is seen; then it ends
 };

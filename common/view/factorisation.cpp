@@ -55,16 +55,21 @@ Rect bounding(const Rect& a, const Rect& b) {
     return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
-Sampling sampling(Quality quality, bool level_of_detail) {
+Sampling sampling(Quality quality, bool level_of_detail, Classify classify) {
+    Sampling sampling{.level_of_detail = level_of_detail, .classify = classify};
     switch (quality) {
         case Quality::draft:
-            return {.resolution = 0.5, .level_of_detail = level_of_detail};
+            sampling.resolution = 0.5;
+            break;
         case Quality::high:
-            return {.resolution = 1.5, .slice_exponent = -1, .level_of_detail = level_of_detail};
+            sampling.resolution = 1.5;
+            sampling.slice_exponent = -1;
+            break;
         case Quality::normal:
+            sampling.finer_magnified = true;
             break;
     }
-    return {.level_of_detail = level_of_detail, .finer_magnified = true};
+    return sampling;
 }
 
 SliceMap Factorisation::slice_map(const Face& face, double w) const {

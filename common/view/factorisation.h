@@ -35,18 +35,24 @@ Rect intersection(const Rect& a, const Rect& b);
 Rect bounding(const Rect& a, const Rect& b);  // an empty one counts for nothing
 
 enum class Quality { draft, normal, high };
+// Where along a ray the transfer function is applied.
+enum class Classify {
+    post,            // to each sample after interpolation
+    pre_integrated,  // to all values between two samples, in advance (Engel, Kraus & Ertl 2001)
+};
 // How densely rays are sampled. Opacity does not depend on it.
 struct Sampling {
     double resolution = 1;         // intermediate pixels per output pixel along a side
     int slice_exponent = 0;        // slices lie 2^slice_exponent voxels apart: 0, or -1 for half a voxel
     bool level_of_detail = false;  // or more, where voxels are smaller than intermediate pixels
     bool finer_magnified = false;  // or half a voxel, where nearer voxels span more than 1.25 of them
+    Classify classify = Classify::post;
 
     bool operator==(const Sampling&) const = default;
 };
 // draft: half the resolution; normal: two slices a voxel only close up; high: one and a half times the
 // resolution, and two slices a voxel.
-Sampling sampling(Quality quality, bool level_of_detail = false);
+Sampling sampling(Quality quality, bool level_of_detail = false, Classify classify = Classify::post);
 
 struct Face {
     int axis = 2;   // principal axis w
@@ -78,6 +84,7 @@ struct Factorisation {
     Vec3 eye{};
     Vec3 direction{};
     int slice_exponent = 0;  // as in Sampling, or the level of detail (volume/levels.h)
+    Classify classify = Classify::post;
     std::vector<Face> faces;
 
     bool operator==(const Factorisation&) const = default;

@@ -319,7 +319,8 @@ int slice_exponent(const Factorisation& factorisation, const std::vector<Plan>& 
 Factorisation factorise(const Camera& camera, const ImageSize& size, const Lattice& lattice,
                         const Sampling& sampling) {
     const Rays rays = in_voxel_space(rays_of(camera, size), lattice);
-    Factorisation factorisation{.projection = camera.projection, .lattice = lattice};
+    Factorisation factorisation{
+        .projection = camera.projection, .lattice = lattice, .classify = sampling.classify};
     const Polygon picture = whole_picture(size);
     std::vector<Plan> plans;
     if (camera.projection == Projection::perspective) {

@@ -48,6 +48,16 @@ Box nodes_of(const Box& box, int level) {
     return nodes;
 }
 
+Box nodes_kept(const Box& box, int level, const Index3& n) {
+    Box nodes = nodes_of(box, level);
+    const Index3 last = last_nodes(n, level);
+    for (std::size_t a = 0; a < 3; ++a) {
+        nodes.lo[a] = std::max<std::int64_t>(nodes.lo[a] - 1, 0);
+        nodes.hi[a] = std::min(nodes.hi[a] + 1, last[a]);
+    }
+    return nodes;
+}
+
 Box made_from(const Box& nodes, const Index3& last_finer) {
     Box finer;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -60,7 +70,7 @@ Box made_from(const Box& nodes, const Index3& last_finer) {
 std::vector<Box> nodes_to_make(const Box& box, const Index3& n) {
     std::vector<Box> levels;
     for (int level = 0; level <= coarsest_level(n); ++level) {
-        levels.push_back(nodes_of(box, level));
+        levels.push_back(nodes_kept(box, level, n));
     }
     for (std::size_t level = levels.size() - 1; level > 0; --level) {
         const Box needed = made_from(levels[level], last_nodes(n, static_cast<int>(level) - 1));

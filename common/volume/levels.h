@@ -28,11 +28,16 @@ Index3 last_nodes(const Index3& n, int level);
 // The nodes of a level between which the points lie that a box of voxels owns.
 Box nodes_of(const Box& box, int level);
 
+// Those and one more on every side, where the cube has one: between them lie both ends of every segment of a
+// ray, from one slice to the next, that begins in the box.
+Box nodes_kept(const Box& box, int level, const Index3& n);
+
 // The nodes of the next finer level, with the given last ones, that nodes are made from.
 Box made_from(const Box& nodes, const Index3& last_finer);
 
-// Of every level of a cube of n voxels, from 0 to the coarsest, the nodes_of a box and those that nodes_of it
-// on coarser levels are made from. On level 0 it is what whoever renders the box has to read.
+// Of every level of a cube of n voxels, from 0 to the coarsest, the nodes_kept of a box and those that
+// nodes_kept of it on coarser levels are made from. On level 0 it is what whoever renders the box has to
+// read.
 std::vector<Box> nodes_to_make(const Box& box, const Index3& n);
 
 }  // namespace shearwater::volume

@@ -59,6 +59,7 @@ Record row(const Flags& flags, const Case& drawn, const InProcess& cube, const s
         .count("threads", static_cast<std::uint64_t>(cube.threads()))
         .aside("image", flags.common.image)
         .aside("quality", flags.common.quality)
+        .aside("classify", flags.common.classify)
         .aside("lod", flags.common.lod)
         .count("level", static_cast<std::uint64_t>(frames.front().level))
         .aside("frames", static_cast<double>(frames.size()))
@@ -177,6 +178,7 @@ Run add_frame(CLI::App& app) {
     flags->common.add_frames(app);
     flags->common.add_image(app);
     flags->common.add_quality(app);
+    flags->common.add_classify(app);
     flags->common.add_lod(app);
     flags->common.add_threads(app);
     flags->common.add_json(app);

@@ -83,6 +83,7 @@ Run add_images(CLI::App& app) {
     add_workload(app, flags->workload);
     flags->common.add_frames(app);
     flags->common.add_quality(app);
+    flags->common.add_classify(app);
     flags->common.add_lod(app);
     flags->common.add_threads(app);
     flags->common.add_json(app);

@@ -93,7 +93,7 @@ FrameTimes InProcess::draw(const view::Camera& camera, const view::ImageSize& si
     const auto factorisation = view::factorise(camera, size, lattice_, sampling);
     times.factorise = clock.lap();
     shear::RenderStats stats;
-    const auto& classification = classifier_.classify(bricks_, tf, *workers_);
+    const auto& classification = classifier_.classify(bricks_, tf, factorisation.classify, *workers_);
     const auto windows = shear::render(bricks_, classification, factorisation, *workers_, &stats);
     times.render = clock.lap();
     const auto picture = image::warp(factorisation, windows, camera, size, tf.background, *workers_);

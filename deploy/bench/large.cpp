@@ -99,6 +99,7 @@ Run add_large(CLI::App& app) {
     flags->common.add_frames(app);
     flags->common.add_image(app);
     flags->common.add_quality(app);
+    flags->common.add_classify(app);
     flags->common.add_lod(app);
     flags->common.add_threads(app);
     flags->common.add_json(app);

@@ -15,6 +15,7 @@ struct Options {
     int threads = 0;
     std::string image = "512x512";
     std::string quality = "normal";
+    std::string classify = "post";
     std::string lod = "on";
     std::string json;
 
@@ -23,9 +24,11 @@ struct Options {
     void add_frames(CLI::App& app);
     void add_image(CLI::App& app);
     void add_quality(CLI::App& app);
+    void add_classify(CLI::App& app);
     void add_lod(CLI::App& app);
 
-    // first_view with these options' image, quality and level of detail, checked.
+    // first_view with these options' image, quality, classification and level of detail,
+    // checked.
     base::Result<deploy::ViewOptions> view(std::int64_t edge) const;
 };
 

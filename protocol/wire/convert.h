@@ -44,6 +44,7 @@ struct View {
     bool deflate = false;
     std::optional<bool> level_of_detail;  // else as the server has it
     bool sketch = false;                  // before the cube is loaded, pictures of a sketch are welcome
+    view::Classify classify = view::Classify::post;
 };
 pb::SetView to_wire(const View& view);
 Parsed<View> view_from(const pb::SetView& view);

@@ -35,6 +35,22 @@ Parsed<view::Quality> quality_from(pb::Quality quality) {
     }
 }
 
+pb::Classification to_wire(view::Classify classify) {
+    return classify == view::Classify::pre_integrated ? pb::CLASSIFICATION_PRE_INTEGRATED
+                                                      : pb::CLASSIFICATION_POST;
+}
+
+Parsed<view::Classify> classify_from(pb::Classification classification, const char* field) {
+    switch (classification) {
+        case pb::CLASSIFICATION_POST:
+            return view::Classify::post;
+        case pb::CLASSIFICATION_PRE_INTEGRATED:
+            return view::Classify::pre_integrated;
+        default:
+            return invalid(std::string(field) + ": unknown");
+    }
+}
+
 // Finite is all that is asked of it here: what else a camera needs depends on the picture's size.
 Parsed<view::Camera> camera_from(const pb::Camera& camera) {
     const auto projection = projection_from(camera.projection());
@@ -224,6 +240,7 @@ pb::Factorisation to_wire(const view::Factorisation& factorisation) {
     set(*to.mutable_eye(), factorisation.eye);
     set(*to.mutable_direction(), factorisation.direction);
     to.set_slice_exponent(factorisation.slice_exponent);
+    to.set_classification(to_wire(factorisation.classify));
     for (const view::Face& face : factorisation.faces) {
         *to.add_faces() = to_wire(face);
     }
@@ -243,6 +260,10 @@ Parsed<view::Factorisation> factorisation_from(const pb::Factorisation& factoris
         return invalid("factorisation.slice_exponent: -1 to " + std::to_string(volume::max_level) +
                        " is wanted");
     }
+    const auto classify = classify_from(factorisation.classification(), "factorisation.classification");
+    if (!classify) {
+        return classify.error();
+    }
     auto faces = faces_from(factorisation);
     if (!faces) {
         return faces.error();
@@ -252,6 +273,7 @@ Parsed<view::Factorisation> factorisation_from(const pb::Factorisation& factoris
                              .eye = vec3_from(factorisation.eye()),
                              .direction = vec3_from(factorisation.direction()),
                              .slice_exponent = factorisation.slice_exponent(),
+                             .classify = *classify,
                              .faces = std::move(*faces)};
     if (!finite(from.eye) || !finite(from.direction)) {
         return invalid("factorisation: a finite eye and direction are wanted");
@@ -275,6 +297,7 @@ pb::SetView to_wire(const View& view) {
         to.set_exact(!*view.level_of_detail);
     }
     to.set_sketch(view.sketch);
+    to.set_classification(to_wire(view.classify));
     return to;
 }
 
@@ -300,6 +323,10 @@ Parsed<View> view_from(const pb::SetView& view) {
     if (!quality) {
         return quality.error();
     }
+    const auto classify = classify_from(view.classification(), "view.classification");
+    if (!classify) {
+        return classify.error();
+    }
     return View{.revision = view.revision(),
                 .camera = *camera,
                 .size = size,
@@ -307,7 +334,8 @@ Parsed<View> view_from(const pb::SetView& view) {
                 .quality = *quality,
                 .deflate = view.deflate(),
                 .level_of_detail = view.has_exact() ? std::optional(!view.exact()) : std::nullopt,
-                .sketch = view.sketch()};
+                .sketch = view.sketch(),
+                .classify = *classify};
 }
 
 }  // namespace shearwater::wire

@@ -191,7 +191,8 @@ void Jobs::draw(const leaf::Draw& job, const std::stop_token& stop) {
             tell_(leaf::Drawn{job.job, std::move(message), false});
         }
     };
-    const auto& classification = from->classifier.classify(from->volume, job.tf, drawers_);
+    const auto& classification =
+        from->classifier.classify(from->volume, job.tf, job.factorisation.classify, drawers_);
     const shear::RenderStats stats =
         shear::render_bands(from->volume, classification, job.factorisation, bands, drawers_, on_bands, stop);
     if (stop.stop_requested()) {

@@ -185,19 +185,28 @@ bool BrickVolume::build(CodeVolume voxels, base::Workers& workers, const std::st
                 return false;
             }
         }
-        if (!levels_[level].crop(volume::nodes_of(box_, number), stop) ||
-            !levels_[level].survey(workers, stop)) {
+        if (!levels_[level].crop(volume::nodes_kept(box_, number, n_), stop) ||
+            !levels_[level].survey(volume::nodes_of(box_, number), workers, stop)) {
             return false;
         }
     }
-    bricks_ = CodeGrid(box_, edge);
-    summarise(levels_.front().micro_bricks(), 0, bricks_);
+    summarise(0);
     return true;
+}
+
+void BrickVolume::summarise(int level) {
+    const CodeVolume& nodes = levels_[static_cast<std::size_t>(level)];
+    bricks_ = CodeGrid(box_, edge);
+    reaches_.resize(bricks_.ranges().size());
+    for_cells_reached(nodes.micro_bricks(), level, bricks_, [&](std::size_t micro_brick, std::size_t brick) {
+        bricks_.ranges()[brick].add(std::as_const(nodes).micro_bricks().ranges()[micro_brick]);
+        reaches_[brick].add(nodes.reaches()[micro_brick]);
+    });
 }
 
 BrickVolume BrickVolume::of_level(int level, CodeVolume nodes, const Box& box, const Index3& n,
                                   const volume::Mapping& mapping, base::Workers& workers) {
-    base::check(nodes.box() == volume::nodes_of(box, level) && nodes.bits() == mapping.bits,
+    base::check(nodes.box() == volume::nodes_kept(box, level, n) && nodes.bits() == mapping.bits,
                 "a level has the nodes of its box");
     BrickVolume volume;
     volume.box_ = box;
@@ -205,14 +214,13 @@ BrickVolume BrickVolume::of_level(int level, CodeVolume nodes, const Box& box, c
     volume.mapping_ = mapping;
     volume.levels_.resize(static_cast<std::size_t>(level));
     volume.levels_.push_back(std::move(nodes));
-    volume.levels_.back().survey(workers, {});
-    volume.bricks_ = CodeGrid(box, edge);
-    summarise(volume.levels_.back().micro_bricks(), level, volume.bricks_);
+    volume.levels_.back().survey(volume::nodes_of(box, level), workers, {});
+    volume.summarise(level);
     return volume;
 }
 
 std::size_t BrickVolume::bytes() const {
-    std::size_t bytes = bricks_.ranges().size_bytes();
+    std::size_t bytes = bricks_.ranges().size_bytes() + reaches().size_bytes();
     for (const CodeVolume& level : levels_) {
         bytes += level.bytes();
     }

@@ -36,11 +36,14 @@ class BrickVolume {
     const volume::Mapping& mapping() const { return mapping_; }
     std::size_t bytes() const;
 
-    // Level 0, the voxels, to volume::coarsest_level(cube()): the nodes between which the box's samples lie.
+    // Level 0, the voxels, to volume::coarsest_level(cube()): those between which the box's samples
+    // lie and a margin (volume::nodes_kept).
     int levels() const { return static_cast<int>(levels_.size()); }
     const CodeVolume& level(int level) const { return levels_[static_cast<std::size_t>(level)]; }
     // Of its voxels.
     const CodeGrid& bricks() const { return bricks_; }
+    // Of each of them, the codes that the segments may meet that begin in it.
+    std::span<const CodeRange> reaches() const { return reaches_; }
 
   private:
     template <class Code>
@@ -49,12 +52,15 @@ class BrickVolume {
                              const std::stop_token& stop, std::size_t slab_bytes);
     // From all voxels read; false if stopped before.
     bool build(CodeVolume voxels, base::Workers& workers, const std::stop_token& stop);
+    // Fills in the bricks from the micro-bricks of a level.
+    void summarise(int level);
 
     volume::Box box_;
     volume::Index3 n_{};
     volume::Mapping mapping_;
     std::vector<CodeVolume> levels_;
     CodeGrid bricks_;
+    std::vector<CodeRange> reaches_;
 };
 
 }  // namespace shearwater::shear

@@ -6,13 +6,16 @@
 #include <vector>
 
 #include "common/base/workers.h"
+#include "common/view/factorisation.h"
 #include "common/view/transfer_function.h"
 #include "renderer/shear/brick_volume.h"
 #include "renderer/shear/opacity_table.h"
+#include "renderer/shear/segment_table.h"
 
 namespace shearwater::shear {
 
-// Of a micro-brick: what of it may have opacity, and whether one of its voxels is blank.
+// Of a micro-brick: what of it may have opacity, samples in it or segments that begin in it, and whether one
+// of the voxels between which they lie is blank.
 struct Content {
     std::uint8_t opaque_octants = 0;  // a bit each, counted as Octants are
     bool blanks = false;
@@ -20,22 +23,26 @@ struct Content {
 
 struct Classification {
     OpacityTable table;
+    std::optional<SegmentTable> segments;  // where classification is pre-integrated
     std::vector<std::vector<Content>>
         micro_bricks;                  // of each level, as CodeVolume::micro_bricks() counts them
     std::vector<std::uint8_t> opaque;  // as BrickVolume::bricks() does: whether one in it is not transparent
 };
 
-Classification classify(const BrickVolume& volume, const view::TransferFunction& tf, base::Workers& workers);
+Classification classify(const BrickVolume& volume, const view::TransferFunction& tf, view::Classify how,
+                        base::Workers& workers);
 
-// Keeps the last classification of one volume: only an edit of the transfer function makes a new one.
+// Keeps the last classification of one volume: only an edit of the transfer function, or
+// another way to apply it, makes a new one.
 class Classifier {
   public:
     const Classification& classify(const BrickVolume& volume, const view::TransferFunction& tf,
-                                   base::Workers& workers);
+                                   view::Classify how, base::Workers& workers);
 
   private:
     struct Last {
         view::TransferFunction tf;
+        view::Classify how;
         Classification result;
     };
     std::optional<Last> last_;

@@ -52,22 +52,16 @@ CodeGrid::CodeGrid(const Box& box, std::int64_t edge) : edge_(edge) {
     ranges_.resize(static_cast<std::size_t>(count));
 }
 
-void CodeGrid::add(const Index3& first, const Index3& last, const CodeRange& range) {
-    Index3 at;
-    for (at[2] = first[2]; at[2] <= last[2]; ++at[2]) {
-        for (at[1] = first[1]; at[1] <= last[1]; ++at[1]) {
-            for (at[0] = first[0]; at[0] <= last[0]; ++at[0]) {
-                ranges_[index(at)].add(range);
-            }
-        }
-    }
-}
-
 CodeVolume::CodeVolume(const Box& box, int bits)
-    : box_(box), bits_(bits), strides_(strides_of(box, bits)), codes_(bytes_of(box, strides_, bits)) {}
+    : box_(box),
+      own_(box),
+      bits_(bits),
+      strides_(strides_of(box, bits)),
+      codes_(bytes_of(box, strides_, bits)) {}
 
 std::size_t CodeVolume::bytes() const {
-    return codes_.size() + micro_bricks_.ranges().size_bytes() + std::span(octants_).size_bytes();
+    return codes_.size() + micro_bricks_.ranges().size_bytes() + std::span(octants_).size_bytes() +
+           reaches().size_bytes();
 }
 
 std::size_t CodeVolume::offset(const Index3& p) const {
@@ -106,12 +100,15 @@ bool CodeVolume::crop(const Box& box, const std::stop_token& stop) {
     return true;
 }
 
-bool CodeVolume::survey(base::Workers& workers, const std::stop_token& stop) {
-    micro_bricks_ = CodeGrid(box_, micro_edge);
+bool CodeVolume::survey(const Box& own, base::Workers& workers, const std::stop_token& stop) {
+    base::check(box_.contains(own), "a volume holds its own nodes");
+    own_ = own;
+    micro_bricks_ = CodeGrid(own, micro_edge);
     octants_.assign(micro_bricks_.ranges().size(), {});
+    reaches_.resize(micro_bricks_.ranges().size());
     const auto over = [&]<class Code>(std::span<const Code> codes) {
-        return shear::survey(CodesOfBox<Code>{codes.data(), box_, stride(1), stride(2)}, micro_bricks_,
-                             octants_, workers, stop);
+        return shear::survey(CodesOfBox<Code>{codes.data(), box_, stride(1), stride(2)}, own,
+                             {micro_bricks_, octants_, reaches_}, workers, stop);
     };
     return bits_ == 8 ? over(std::as_const(*this).codes<std::uint8_t>())
                       : over(std::as_const(*this).codes<std::uint16_t>());

@@ -4,8 +4,8 @@
 // Codes lie in rows along axis 0, planes of rows, and so on, as in the cube, so that a tile's samples on a
 // slice lie in a few long rows whatever the axis. What a transfer function may pass over is told by
 // micro-bricks of 8^3 cells on a grid global to the level, each with the codes that occur on its planes,
-// those it shares with its neighbours included; and by its octants, more coarsely. On level 0 the nodes are
-// the cube's voxels.
+// those it shares with its neighbours included; of its octants, more coarsely; and with those that a segment
+// from one slice to the next may reach that begins in it. On level 0 the nodes are the cube's voxels.
 
 #include <array>
 #include <cstdint>
@@ -55,8 +55,6 @@ class CodeGrid {
     }
     std::span<const CodeRange> ranges() const { return ranges_; }
     std::span<CodeRange> ranges() { return ranges_; }
-    // To each cell from one to another, both included.
-    void add(const volume::Index3& first, const volume::Index3& last, const CodeRange& range);
 
   private:
     std::int64_t edge_ = 1;
@@ -74,6 +72,8 @@ class CodeVolume {
     CodeVolume(const volume::Box& box, int bits);
 
     const volume::Box& box() const { return box_; }
+    // The nodes between which the sub-volume's own samples lie: all but a margin (volume::nodes_kept).
+    const volume::Box& own() const { return own_; }
     int bits() const { return bits_; }
     std::size_t bytes() const;
 
@@ -94,19 +94,22 @@ class CodeVolume {
     // before the survey.
     bool crop(const volume::Box& box, const std::stop_token& stop);
 
-    // Finds out what the micro-bricks hold; false if stopped before.
-    bool survey(base::Workers& workers, const std::stop_token& stop);
+    // Finds out what the micro-bricks of the sub-volume's own nodes hold; false if stopped before.
+    bool survey(const volume::Box& own, base::Workers& workers, const std::stop_token& stop);
     const CodeGrid& micro_bricks() const { return micro_bricks_; }
     // Of each of them.
     std::span<const Octants> octants() const { return octants_; }
+    // The same of each with one node more on every side.
+    std::span<const CodeRange> reaches() const { return reaches_; }
 
   private:
-    volume::Box box_;
+    volume::Box box_, own_;
     int bits_ = 8;
     volume::Index3 strides_{};
     base::HugeBytes codes_;
     CodeGrid micro_bricks_;
     std::vector<Octants> octants_;
+    std::vector<CodeRange> reaches_;
 };
 
 }  // namespace shearwater::shear

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace shearwater::shear {
@@ -46,9 +47,49 @@ Stretch clipped(const Stretch& stretch, double start, double at, double slope, d
 
 }  // namespace
 
+class FacePlan::Row {
+  public:
+    Row(const FacePlan& plan, int j) : plan_(plan) {
+        const Factorisation& factorisation = plan.factorisation_;
+        const int axis = plan.face_.axis;
+        start_ = plan.perspective() ? factorisation.eye[axis] : 0;
+        row_ = {0, last(axis)};
+        if (plan.perspective()) {
+            (plan.face_.sign > 0 ? row_.from : row_.to) =
+                plan.face_.sign > 0 ? std::max(row_.from, start_) : std::min(row_.to, start_);
+        }
+        const int slow = plan.slow_axis();
+        row_ = clip(row_, slow, plan.place_of(slow, j));
+        std::tie(origin_, each_) = plan.line_of(plan.fast_axis());
+    }
+
+    Stretch at(int pixel) const { return clip(row_, plan_.fast_axis(), origin_ + each_ * pixel); }
+
+  private:
+    double last(int axis) const {
+        return static_cast<double>(plan_.last_voxel_[static_cast<std::size_t>(axis)]);
+    }
+    // To where a ray is inside the cube along an in-plane axis. In perspective its place is how fast it moves
+    // sideways; in parallel all do alike.
+    Stretch clip(const Stretch& stretch, int axis, double place) const {
+        const Factorisation& factorisation = plan_.factorisation_;
+        return plan_.perspective()
+                   ? clipped(stretch, start_, factorisation.eye[axis], place, last(axis))
+                   : clipped(stretch, start_, place,
+                             factorisation.direction[axis] / factorisation.direction[plan_.face_.axis],
+                             last(axis));
+    }
+
+    const FacePlan& plan_;
+    double start_;
+    Stretch row_;
+    double origin_, each_;
+};
+
 FacePlan::FacePlan(const BrickVolume& volume, const Factorisation& factorisation, int face_index)
     : factorisation_(factorisation),
       face_(factorisation.faces[static_cast<std::size_t>(face_index)]),
+      nodes_per_voxel_(std::ldexp(1.0, -level())),
       last_voxel_{volume.cube()[0] - 1, volume.cube()[1] - 1, volume.cube()[2] - 1},
       window_(turn(view::window_of(factorisation, face_, volume.box()))),
       slices_(owned_slices(factorisation, face_, volume.box(), last_voxel_)) {
@@ -56,6 +97,7 @@ FacePlan::FacePlan(const BrickVolume& volume, const Factorisation& factorisation
         window_ = {};
         return;
     }
+    gentle_ = gentle_rays();
     plans_.resize(static_cast<std::size_t>(slice_count()));
     inside_.resize(plans_.size() + 2);
     for (std::int64_t k = slices_.first - 1; k <= slices_.last + 1; ++k) {
@@ -63,8 +105,7 @@ FacePlan::FacePlan(const BrickVolume& volume, const Factorisation& factorisation
     }
     for (std::int64_t k = slices_.first; k <= slices_.last; ++k) {
         SlicePlan& plan = plans_[slot(k)];
-        plan.place = std::ldexp(factorisation_.slice_place(k), -level());
-        plan.map = node_map(plan.place);
+        plan.map = node_map(node_place(k));
         plan.whole = intersection(inside(k - 1), inside(k + 1));
     }
 }
@@ -94,16 +135,29 @@ void FacePlan::lay_slice(const Box& box, std::int64_t k) {
     }
 }
 
+Rect FacePlan::gentle_rays() const {
+    const Rect all = turn({0, 0, face_.width, face_.height});
+    if (!perspective()) {
+        return all;
+    }
+    const auto along = [&](int axis, int count) {
+        const auto [origin, pitch] = line_of(axis);
+        return view::pixels_between(origin, pitch, -1, 1, true, count);
+    };
+    const PixelRange fast = along(fast_axis(), all.x1);
+    const PixelRange slow = along(slow_axis(), all.y1);
+    return {fast.first, slow.first, fast.last, slow.last};
+}
+
 SliceMap FacePlan::slice_map(double w) const {
     const SliceMap map = factorisation_.slice_map(face_, w);
     return turned() ? SliceMap{map.v_offset, map.v_scale, map.u_offset, map.u_scale} : map;
 }
 
 SliceMap FacePlan::node_map(double place) const {
-    const double nodes_per_voxel = std::ldexp(1.0, -level());
-    const SliceMap map = slice_map(place / nodes_per_voxel);
-    return {map.u_offset * nodes_per_voxel, map.u_scale * nodes_per_voxel, map.v_offset * nodes_per_voxel,
-            map.v_scale * nodes_per_voxel};
+    const SliceMap map = slice_map(place / nodes_per_voxel_);
+    return {map.u_offset * nodes_per_voxel_, map.u_scale * nodes_per_voxel_, map.v_offset * nodes_per_voxel_,
+            map.v_scale * nodes_per_voxel_};
 }
 
 void FacePlan::steps(int i, int j, std::span<float> out) const {
@@ -140,43 +194,31 @@ const Rect& FacePlan::inside(std::int64_t k) const {
 }
 
 void FacePlan::shares(std::int64_t k, int i, int j, std::span<float> out) const {
-    const auto last = [&](int axis) {
-        return static_cast<double>(last_voxel_[static_cast<std::size_t>(axis)]);
-    };
-    const double start = perspective() ? factorisation_.eye[face_.axis] : 0;
-    Stretch row{0, last(face_.axis)};
-    if (perspective()) {
-        (face_.sign > 0 ? row.from : row.to) =
-            face_.sign > 0 ? std::max(row.from, start) : std::min(row.to, start);
-    }
-    // How fast a ray moves sideways: in perspective that is its place, in parallel they all do alike.
-    const auto slope_of = [&](int axis, double place) {
-        return perspective() ? place : factorisation_.direction[axis] / factorisation_.direction[face_.axis];
-    };
-    const double slow_place = place_of(slow_axis(), j);
-    row = clipped(row, start, perspective() ? factorisation_.eye[slow_axis()] : slow_place,
-                  slope_of(slow_axis(), slow_place), last(slow_axis()));
-
     const double place = factorisation_.slice_place(k);
     const double half = factorisation_.slice_pitch() / 2;
     const auto in_row = [j](const Rect& rect) {
         return rect.y0 <= j && j < rect.y1 ? PixelRange{rect.x0, rect.x1} : PixelRange{};
     };
-    const PixelRange before = in_row(inside(k - 1));
-    const PixelRange after = in_row(inside(k + 1));
-    const auto [origin, each] = line_of(fast_axis());
-    const double last_fast = last(fast_axis());
-    const auto share = [&](int pixel, const Stretch& ray) {
-        const double from = before.first <= pixel && pixel < before.last ? place - half : ray.from;
-        const double to = after.first <= pixel && pixel < after.last ? place + half : ray.to;
-        return static_cast<float>(std::clamp((to - from) / (2 * half), 0.0, 2.0));
-    };
+    const PixelRange below = in_row(inside(k - 1));
+    const PixelRange above = in_row(inside(k + 1));
+    const Row row(*this, j);
     for (std::size_t n = 0; n < out.size(); ++n) {
         const int pixel = i + static_cast<int>(n);
-        const double at = origin + each * pixel;
-        out[n] =
-            share(pixel, perspective() ? clipped(row, start, factorisation_.eye[fast_axis()], at, last_fast)
-                                       : clipped(row, start, at, slope_of(fast_axis(), at), last_fast));
+        const Stretch ray = row.at(pixel);
+        const double from = below.first <= pixel && pixel < below.last ? place - half : ray.from;
+        const double to = above.first <= pixel && pixel < above.last ? place + half : ray.to;
+        out[n] = static_cast<float>(std::clamp((to - from) / (2 * half), 0.0, 2.0));
+    }
+}
+
+// `sign`: towards lower planes or higher ones.
+void FacePlan::rims(std::int64_t k, int sign, int i, int j, std::span<float> out) const {
+    const double place = factorisation_.slice_place(k);
+    const Row row(*this, j);
+    for (std::size_t n = 0; n < out.size(); ++n) {
+        const Stretch ray = row.at(i + static_cast<int>(n));
+        const double length = sign > 0 ? ray.to - place : place - ray.from;
+        out[n] = static_cast<float>(std::clamp(length / factorisation_.slice_pitch(), 0.0, 1.0));
     }
 }
 

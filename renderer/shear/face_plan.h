@@ -19,7 +19,6 @@ namespace shearwater::shear {
 
 // A slice that the sub-volume owns, in the nodes of the level that is drawn.
 struct SlicePlan {
-    double place;        // along the face's axis
     view::SliceMap map;  // where nodes lie under pixels, fast as u and slow as v
     view::Rect owned;    // the pixels whose samples the sub-volume owns
     view::Rect whole;    // those whose samples stand for a whole step
@@ -46,9 +45,10 @@ class FacePlan {
     std::int64_t slice(std::int64_t n) const { return face_.sign > 0 ? slices_.first + n : slices_.last - n; }
     const SlicePlan& slice_plan(std::int64_t k) const { return plans_[slot(k)]; }
 
-    // The level of detail that is drawn, and where the nodes of its plane at `place` lie under pixels, fast
-    // as u and slow as v.
+    // The level of detail that is drawn, and in its nodes where slice k lies along the face's axis, and where
+    // the nodes of the plane at `place` lie under pixels, fast as u and slow as v.
     int level() const { return factorisation_.level(); }
+    double node_place(std::int64_t k) const { return factorisation_.slice_place(k) * nodes_per_voxel_; }
     view::SliceMap node_map(double place) const;
     // World lengths between two slices of the rays of pixels of row j from i on.
     void steps(int i, int j, std::span<float> out) const;
@@ -59,18 +59,35 @@ class FacePlan {
     // reach to where the ray enters and leaves the cube, so that together they cover it exactly.
     void shares(std::int64_t k, int i, int j, std::span<float> out) const;
 
+    // Of segments from slice to slice (segments.h). The slice behind k; its pixels are inside() too.
+    std::int64_t behind(std::int64_t k) const { return k + face_.sign; }
+    std::int64_t before(std::int64_t k) const { return k - face_.sign; }
+    // How many slice distances the rays of pixels of row j from i on have in the cube between slice k, which
+    // they all meet inside it, and the one before or behind it, which they do not.
+    void entries(std::int64_t k, int i, int j, std::span<float> out) const {
+        rims(k, -face_.sign, i, j, out);
+    }
+    void exits(std::int64_t k, int i, int j, std::span<float> out) const { rims(k, face_.sign, i, j, out); }
+    // The pixels whose rays move sideways by no more than a voxel from plane to plane.
+    const view::Rect& gentle() const { return gentle_; }
+
   private:
     std::pair<double, double> line_of(int axis) const;
     double place_of(int axis, int pixel) const;
     view::SliceMap slice_map(double w) const;
     void lay_slice(const volume::Box& box, std::int64_t k);
+    view::Rect gentle_rays() const;
+    // What the rays of row j have of the cube, along the principal axis: each pixel's part of it.
+    class Row;
+    void rims(std::int64_t k, int sign, int i, int j, std::span<float> out) const;
     std::size_t slot(std::int64_t k) const { return static_cast<std::size_t>(k - slices_.first); }
     bool perspective() const { return factorisation_.projection == view::Projection::perspective; }
 
     const view::Factorisation& factorisation_;
     const view::Face& face_;
+    double nodes_per_voxel_;
     volume::Index3 last_voxel_;  // of the cube
-    view::Rect window_;
+    view::Rect window_, gentle_;
     view::SliceRange slices_;  // that the sub-volume owns, in front of the eye
     std::vector<SlicePlan> plans_;
     std::vector<view::Rect> inside_;  // of the slices and of one more at either end

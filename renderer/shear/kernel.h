@@ -47,6 +47,8 @@ void fetch(const Ahead& ahead);
 template <class Code>
 struct Slab {
     static constexpr int max_slices = 8;
+    // Of segments (segments.h): with the slice that the last one's end lies on.
+    static constexpr int max_ends = max_slices + 1;
 
     std::int64_t fast_first, slow_first;  // its first voxel
     std::int64_t fast_cells, slow_cells;  // a row holds one voxel more, and there is one row more
@@ -56,7 +58,7 @@ struct Slab {
     bool blanks;                 // whether code 0, which is no value, occurs
     bool between_nodes;          // whether extinction is interpolated, or that of the nearest node will do
     int count;
-    std::array<Slice<Code>, max_slices> slices;
+    std::array<Slice<Code>, max_ends> slices;
 };
 // Bytes beyond the last row that may be read, though to no effect.
 inline constexpr std::size_t voxel_padding = 1024;
@@ -91,6 +93,12 @@ template <class Code>
 std::uint64_t composite_slab_by_definition(const Slab<Code>& slab, const OpacityTable& table,
                                            const Rays& rays);
 
+// The code of pixel (i, j)'s sample on a slice of the slab, interpolated by definition; 0 where it is blank.
+template <class Code>
+float sample_by_definition(const Slab<Code>& slab, const Slice<Code>& slice, int i, int j);
+
+extern template float sample_by_definition(const Slab<std::uint8_t>&, const Slice<std::uint8_t>&, int, int);
+extern template float sample_by_definition(const Slab<std::uint16_t>&, const Slice<std::uint16_t>&, int, int);
 extern template std::uint64_t composite_slab_by_definition(const Slab<std::uint8_t>&, const OpacityTable&,
                                                            const Rays&);
 extern template std::uint64_t composite_slab_by_definition(const Slab<std::uint16_t>&, const OpacityTable&,

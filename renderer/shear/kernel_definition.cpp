@@ -61,6 +61,22 @@ void composite(float code, const OpacityTable& table, bool between_nodes, float 
     a += weight;
 }
 
+}  // namespace
+
+template <class Code>
+float sample_by_definition(const Slab<Code>& slab, const Slice<Code>& slice, int i, int j) {
+    const Place fast = place_among(slice.fast_offset + slice.fast_scale * (i + slab.fast_pixel),
+                                   slab.fast_first, slab.fast_cells);
+    const Place slow = place_among(slice.slow_offset + slice.slow_scale * (j + slab.slow_pixel),
+                                   slab.slow_first, slab.slow_cells);
+    return interpolate(slab, slice, fast, slow);
+}
+
+template float sample_by_definition(const Slab<std::uint8_t>&, const Slice<std::uint8_t>&, int, int);
+template float sample_by_definition(const Slab<std::uint16_t>&, const Slice<std::uint16_t>&, int, int);
+
+namespace {
+
 template <class Code>
 void composite_ray(const Slab<Code>& slab, const OpacityTable& table, const Rays& rays, int i, int j,
                    std::uint64_t& taken) {
@@ -75,11 +91,7 @@ void composite_ray(const Slab<Code>& slab, const OpacityTable& table, const Rays
             continue;
         }
         ++taken;
-        const Place fast = place_among(slice.fast_offset + slice.fast_scale * (i + slab.fast_pixel),
-                                       slab.fast_first, slab.fast_cells);
-        const Place slow = place_among(slice.slow_offset + slice.slow_scale * (j + slab.slow_pixel),
-                                       slab.slow_first, slab.slow_cells);
-        const float code = interpolate(slab, slice, fast, slow);
+        const float code = sample_by_definition(slab, slice, i, j);
         if (code > 0) {
             composite(code, table, slab.between_nodes, slice.lengths[n], rays.r[n], rays.g[n], rays.b[n],
                       rays.a[n]);

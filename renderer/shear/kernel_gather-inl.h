@@ -183,15 +183,20 @@ std::uint64_t composite_chunk(const Slab<Code>& slab, const view::Rect& chunk, c
     return taken;
 }
 
-template <bool blanks, class Code>
-std::uint64_t composite_gathering(const Slab<Code>& slab, const OpacityTable& table, const Rays& rays) {
+// So many pixels lie, on every slice, within the row of voxels that there is room for.
+template <class Code>
+HWY_INLINE int pixels_of_a_chunk(const Slab<Code>& slab) {
     double scale = 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(slab.count); ++k) {
         scale = std::max(scale, std::abs(slab.slices[k].fast_scale));
     }
-    // So many pixels lie within the row of voxels that there is room for.
     const double room = (most_voxels - 3) / scale;
-    const int most = room >= widest_tile ? widest_tile : std::max(1, static_cast<int>(room));
+    return room >= widest_tile ? widest_tile : std::max(1, static_cast<int>(room));
+}
+
+template <bool blanks, class Code>
+std::uint64_t composite_gathering(const Slab<Code>& slab, const OpacityTable& table, const Rays& rays) {
+    const int most = pixels_of_a_chunk(slab);
     const view::Rect pixels = pixels_of(slab);
     Fetching fetching(slab.ahead, (pixels.width() + most - 1) / most * pixels.height());
     std::uint64_t taken = 0;

@@ -6,50 +6,13 @@
 #include <limits>
 #include <numbers>
 
+#include "renderer/shear/extinction_means.h"
+
 namespace shearwater::shear {
 
 namespace {
 
 constexpr int codes_per_node_16 = 16;
-// Where the function's pins begin, end or bend.
-std::vector<double> bends_of(const view::TransferFunction& tf) {
-    std::vector<double> bends;
-    for (const view::OpacityPin& pin : tf.opacity_pins) {
-        if (const auto* ramp = std::get_if<view::Ramp>(&pin)) {
-            bends.insert(bends.end(), {ramp->x0, ramp->x1});
-        } else if (const auto* hat = std::get_if<view::Hat>(&pin)) {
-            for (const double width : {-hat->base, -hat->top, hat->top, hat->base}) {
-                bends.push_back(hat->centre + width / 2);
-            }
-        } else if (const auto* blank = std::get_if<view::Blank>(&pin)) {
-            bends.insert(bends.end(), {blank->lo, blank->hi});
-        }
-    }
-    std::sort(bends.begin(), bends.end());
-    return bends;
-}
-
-// The mean about s; where no pin bends nearby, that is the value at s.
-double mean_extinction(const view::TransferFunction& tf, const std::vector<double>& bends, double s,
-                       double half_width) {
-    const double end = std::min(s + half_width, 1.0);
-    double from = std::max(s - half_width, 0.0);
-    auto bend = std::upper_bound(bends.begin(), bends.end(), from);
-    if (bend == bends.end() || *bend >= end) {
-        return tf.extinction(s);
-    }
-    const double width = end - from;
-    double sum = 0;
-    while (from < end) {
-        const double to = bend == bends.end() ? end : std::min(*bend++, end);
-        constexpr int parts = 4;
-        for (int i = 0; i < parts; ++i) {
-            sum += tf.extinction(from + (i + 0.5) / parts * (to - from)) * (to - from) / parts;
-        }
-        from = to;
-    }
-    return sum / width;
-}
 
 // The word that becomes the float x, 0 <= x <= largest, once shifted; 0 where x is too small for one that is
 // normal.
@@ -67,14 +30,14 @@ OpacityTable::OpacityTable(const view::TransferFunction& tf, int levels) {
     const int codes_per_node = levels == 255 ? 1 : codes_per_node_16;
     const int count = (levels + 1) / codes_per_node + 1;
     nodes_per_code_ = 1.0F / static_cast<float>(codes_per_node);
-    const std::vector<double> bends = bends_of(tf);
+    const ExtinctionMeans means(tf);
     std::vector<double> extinctions;
     for (int i = 0; i < count; ++i) {
         const double s = std::clamp((i * codes_per_node - 1.0) / (levels - 1), 0.0, 1.0);
         const view::Rgb colour = tf.colour(s);
         nodes_.push_back(
             {static_cast<float>(colour.r), static_cast<float>(colour.g), static_cast<float>(colour.b), 0});
-        extinctions.push_back(mean_extinction(tf, bends, s, 0.5 * codes_per_node / (levels - 1)));
+        extinctions.push_back(means.about(s, 0.5 * codes_per_node / (levels - 1)));
     }
     const double unit = *std::max_element(extinctions.begin(), extinctions.end()) / double{largest};
     depth_unit_ = static_cast<float>(unit * std::numbers::log2e);
@@ -119,6 +82,15 @@ void OpacityTable::find_hue() {
             node = {share(node), 0, 0, node.extinction};
         }
     }
+}
+
+view::Rgb OpacityTable::channels(const view::Rgb& colour) const {
+    if (!one_hue_) {
+        return colour;
+    }
+    const double square = hue_.r * hue_.r + hue_.g * hue_.g + hue_.b * hue_.b;
+    const double along = colour.r * hue_.r + colour.g * hue_.g + colour.b * hue_.b;
+    return {square > 0 ? along / square : 0, 0, 0};
 }
 
 void OpacityTable::fill_bytes() {

@@ -42,6 +42,8 @@ class OpacityTable {
     // Whether all colours are shares of one, as in a map from black to some colour: then one channel does.
     bool one_hue() const { return one_hue_; }
     const view::Rgb& hue() const { return hue_; }
+    // A colour of the transfer function as rays gather it: where there is one hue, its share of that, as r.
+    view::Rgb channels(const view::Rgb& colour) const;
     const Node* nodes() const { return nodes_.data(); }  // and one more after the last
     const Bytes& bytes() const { return bytes_; }        // for 8 bits only
 

@@ -202,6 +202,9 @@ RenderStats render_bands(const BrickVolume& volume, const Classification& classi
                          base::Workers& workers, const OnBands& on_bands, const std::stop_token& stop) {
     base::check(factorisation.lattice.n == volume.cube(), "a factorisation is that of the volume's cube");
     base::check(factorisation.level() < volume.levels(), "a factorisation keeps to the cube's levels");
+    base::check(
+        classification.segments.has_value() == (factorisation.classify == view::Classify::pre_integrated),
+        "a volume is classified as the factorisation has it");
     Frame frame{.volume = volume,
                 .classification = classification,
                 .met = BricksMet(volume.bricks().ranges().size())};
@@ -235,7 +238,8 @@ std::vector<Window> render(const BrickVolume& volume, const Classification& clas
 std::vector<Window> render(const BrickVolume& volume, const view::Factorisation& factorisation,
                            const view::TransferFunction& tf, base::Workers& workers, RenderStats* stats,
                            const std::stop_token& stop) {
-    return render(volume, classify(volume, tf, workers), factorisation, workers, stats, stop);
+    return render(volume, classify(volume, tf, factorisation.classify, workers), factorisation, workers,
+                  stats, stop);
 }
 
 }  // namespace shearwater::shear

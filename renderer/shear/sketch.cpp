@@ -32,7 +32,7 @@ void quantise(const volume::Quantiser& quantiser, std::span<const float> values,
 
 Sketch::Sketch(const Box& box, const Index3& n, int level)
     : box_(box),
-      nodes_(volume::nodes_of(box, level)),
+      nodes_(volume::nodes_kept(box, level, n)),
       n_(n),
       level_(level),
       values_(static_cast<std::size_t>(nodes_.voxels())) {}
@@ -42,7 +42,7 @@ base::Result<Sketch> Sketch::read(volume::VoxelSource& source, const Box& box, c
     base::check(source.gives_rows() && volume::whole(n).contains(box), "rows of the cube can be read alone");
     constexpr std::int64_t most_nodes = 1 << 25;
     const std::string operation = "sketch " + volume::to_string(box);
-    if (volume::nodes_of(box, level).voxels() > most_nodes) {
+    if (volume::nodes_kept(box, level, n).voxels() > most_nodes) {
         return base::error(base::Code::too_large, operation, "its level has too many nodes");
     }
     Sketch sketch(box, n, level);
@@ -87,11 +87,11 @@ base::Result<Sketch> Sketch::read(volume::VoxelSource& source, const Box& box, c
 volume::Histogram Sketch::histogram() const {
     // The nodes of an axis that the box owns.
     const auto first = [&](std::size_t a) {
-        return (nodes_.lo[a] << level_) < box_.lo[a] ? nodes_.lo[a] + 1 : nodes_.lo[a];
+        return (box_.lo[a] + (std::int64_t{1} << level_) - 1) >> level_;
     };
     const auto last = [&](std::size_t a) {
         const std::int64_t end = box_.hi[a] == n_[a] - 1 ? n_[a] : box_.hi[a];
-        return (nodes_.hi[a] << level_) < end ? nodes_.hi[a] : nodes_.hi[a] - 1;
+        return (end - 1) >> level_;
     };
     volume::Histogram histogram;
     const auto length = static_cast<std::size_t>(std::max<std::int64_t>(last(0) - first(0) + 1, 0));

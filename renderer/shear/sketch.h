@@ -25,9 +25,10 @@ namespace shearwater::shear {
 
 class Sketch {
   public:
-    // Reads nodes_of(box, level) of a cube of n voxels, row by row, from a source that gives rows: of another
-    // one row would cost as much as many. On all workers at once where the source allows it. Nodes beyond the
-    // cube's last voxel are taken from that one. Cancelled between rows; too large from 2^25 nodes on.
+    // Reads nodes_kept(box, level, n) of a cube of n voxels, row by row, from a source that gives rows: of
+    // another one row would cost as much as many. On all workers at once where the source allows it. Nodes
+    // beyond the cube's last voxel are taken from that one. Cancelled between rows; too large from 2^25 nodes
+    // on.
     static base::Result<Sketch> read(volume::VoxelSource& source, const volume::Box& box,
                                      const volume::Index3& n, int level, base::Workers& workers,
                                      const std::stop_token& stop = {});

@@ -42,6 +42,7 @@ Tile<Code>::Tile(const BrickVolume& volume, const Classification& classification
     : bricks_(volume.bricks()),
       codes_(volume.level(plan.level())),
       classification_(classification),
+      nodes_(classification.segments ? codes_.box() : codes_.own()),
       plan_(plan),
       met_(met),
       voxels_(codes_, plan),
@@ -86,7 +87,7 @@ void Tile<Code>::prepare_rays() {
     for (Plane* const plane : {&planes_->r, &planes_->g, &planes_->b, &planes_->a}) {
         plane->fill(0);
     }
-    const float unit = classification_.table.depth_unit();
+    const float unit = classification_.segments ? 1 : classification_.table.depth_unit();
     float longest = 0;
     for (int j = rect_.y0; j < rect_.y1; ++j) {
         const std::span<float> row(&planes_->steps[slot(rect_.x0, j)],
@@ -115,8 +116,8 @@ bool Tile<Code>::opaque() const {
 // The cell behind the slice.
 template <class Code>
 std::int64_t Tile<Code>::cell_of(std::int64_t k) const {
-    return std::min(static_cast<std::int64_t>(plan_.slice_plan(k).place),
-                    codes_.box().hi[static_cast<std::size_t>(plan_.face().axis)] - 1);
+    return std::min(static_cast<std::int64_t>(plan_.node_place(k)),
+                    codes_.own().hi[static_cast<std::size_t>(plan_.face().axis)] - 1);
 }
 
 // Its layer, counted from the sub-volume's first.
@@ -146,7 +147,7 @@ Slice<Code> Tile<Code>::slice_of(std::int64_t k) const {
 template <class Code>
 void Tile<Code>::render_slices(Slices slices, std::span<const std::int64_t> numbers) {
     const std::int64_t number = micro_layer(numbers.front());
-    const VoxelRegion region = region_of(slices, numbers);
+    const VoxelRegion region = region_of(slices, numbers, codes_.own());
     const auto run = [&](std::size_t n, int axis, std::int64_t edge) {
         const std::int64_t first = codes_.micro_bricks().first(axis) * micro_edge;
         return MicroRun{(region.lo[n] - first) / edge, (region.hi[n] - 1 - first) / edge + 1};
@@ -242,7 +243,27 @@ void Tile<Code>::render_piece(Slices slices, std::span<const std::int64_t> numbe
 // Parts of slices to be visited alike. Where it is the whole of them, so will the next slices be.
 template <class Code>
 void Tile<Code>::render_part(Slices slices, std::span<const std::int64_t> numbers, Visit visit, bool whole) {
-    const VoxelRegion region = region_of(slices, numbers);
+    if (classification_.segments) {
+        render_segments(slices, numbers, visit, whole);
+        return;
+    }
+    const VoxelRegion region = region_of(slices, numbers, nodes_);
+    Slab<Code> slab = slab_of(slices, numbers, region, visit, whole);
+    for (std::size_t n = 0; n < slices.size(); ++n) {
+        Slice<Code>& slice = slab.slices[n];
+        slice.lengths = lengths_on(numbers[n], slice.pixels, planes_->lengths[n]);
+    }
+    const std::uint64_t taken = composite_slab(slab, classification_.table, rays());
+    samples_ += taken;
+    if (taken > 0) {
+        note_met(region);
+    }
+}
+
+// The slices with the region of voxels that their samples lie between.
+template <class Code>
+Slab<Code> Tile<Code>::slab_of(Slices slices, std::span<const std::int64_t> numbers,
+                               const VoxelRegion& region, Visit visit, bool whole) {
     const auto place = voxels_.find(region, whole ? with_block(region) : region);
     Slab<Code> slab{.fast_first = region.lo[0],
                     .slow_first = region.lo[1],
@@ -257,19 +278,14 @@ void Tile<Code>::render_part(Slices slices, std::span<const std::int64_t> number
                     .count = static_cast<int>(slices.size()),
                     .slices = {}};
     for (std::size_t n = 0; n < slices.size(); ++n) {
-        const double w = plan_.slice_plan(numbers[n]).place;
+        const double w = plan_.node_place(numbers[n]);
         const auto plane = static_cast<std::int64_t>(w);
         Slice<Code>& slice = slab.slices[n];
         slice = slices[n];
         slice.voxels = place.first + (plane - region.lo[2]) * place.plane_stride;
         slice.next = static_cast<double>(plane) < w ? slice.voxels + place.plane_stride : nullptr;
-        slice.lengths = lengths_on(numbers[n], slice.pixels, planes_->lengths[n]);
     }
-    const std::uint64_t taken = composite_slab(slab, classification_.table, rays());
-    samples_ += taken;
-    if (taken > 0) {
-        note_met(region);
-    }
+    return slab;
 }
 
 template <class Code>

@@ -43,14 +43,16 @@ class Tile {
     using Plane = std::array<float, static_cast<std::size_t>(height) * stride>;
     struct Planes {
         alignas(64) Plane r, g, b, a;
-        alignas(64) Plane steps;  // the length of a whole step, in OpacityTable::depth_unit()
+        alignas(64) Plane steps;  // the length of a whole step, in the table's units
         alignas(64) std::array<Plane, Slab<Code>::max_slices> lengths;  // of slices with shorter ones
+        alignas(64) Plane entries, exits;  // of segments that end where a ray comes into the cube or goes out
     };
     using Slices = std::span<const Slice<Code>>;
     struct Piece {  // a run of octants of some rows
         MicroLayer::Run run;
         MicroRun rows;
     };
+    class Segments;
 
     void prepare_rays();
     std::int64_t cell_of(std::int64_t k) const;
@@ -62,7 +64,11 @@ class Tile {
     void render_piece(Slices slices, std::span<const std::int64_t> numbers, const Piece& piece,
                       const MicroRun& fast, const MicroRun& slow);
     void render_part(Slices slices, std::span<const std::int64_t> numbers, Visit visit, bool whole);
-    VoxelRegion region_of(Slices slices, std::span<const std::int64_t> numbers) const;
+    void render_segments(Slices slices, std::span<const std::int64_t> numbers, Visit visit, bool whole);
+    Slab<Code> slab_of(Slices slices, std::span<const std::int64_t> numbers, const VoxelRegion& region,
+                       Visit visit, bool whole);
+    VoxelRegion region_of(Slices slices, std::span<const std::int64_t> numbers,
+                          const volume::Box& within) const;
     VoxelRegion region_of(const MicroRun& fast, const MicroRun& slow,
                           std::span<const std::int64_t> numbers) const;
     VoxelRegion between_planes(std::int64_t lo, std::int64_t hi) const;
@@ -79,6 +85,7 @@ class Tile {
     const CodeGrid& bricks_;
     const CodeVolume& codes_;  // of the level that is drawn
     const Classification& classification_;
+    const volume::Box& nodes_;  // of the codes, that samples may lie between
     const FacePlan& plan_;
     BricksMet& met_;
     TileVoxels<Code> voxels_;

@@ -24,10 +24,10 @@ std::pair<double, double> ends_of(double offset, double scale, int first, int en
 
 }  // namespace
 
-// The voxels that the samples of some slices lie between.
+// The voxels that the samples of some slices lie between, of those in `box`.
 template <class Code>
-VoxelRegion Tile<Code>::region_of(Slices slices, std::span<const std::int64_t> numbers) const {
-    const volume::Box& box = codes_.box();
+VoxelRegion Tile<Code>::region_of(Slices slices, std::span<const std::int64_t> numbers,
+                                  const volume::Box& box) const {
     const std::array<int, 3> axes{plan_.fast_axis(), plan_.slow_axis(), plan_.face().axis};
     std::array<std::pair<double, double>, 3> ends;
     ends.fill({1e300, -1e300});
@@ -41,7 +41,7 @@ VoxelRegion Tile<Code>::region_of(Slices slices, std::span<const std::int64_t> n
             ends_of(slice.fast_offset, slice.fast_scale, pixels.x0 + rect_.x0, pixels.x1 + rect_.x0));
         add(ends[1],
             ends_of(slice.slow_offset, slice.slow_scale, pixels.y0 + rect_.y0, pixels.y1 + rect_.y0));
-        const double w = plan_.slice_plan(numbers[n]).place;
+        const double w = plan_.node_place(numbers[n]);
         add(ends[2], {w, w});
     }
     VoxelRegion region;
@@ -63,15 +63,15 @@ VoxelRegion Tile<Code>::region_of(const MicroRun& fast, const MicroRun& slow,
                                   std::span<const std::int64_t> numbers) const {
     const std::array<int, 2> axes{plan_.fast_axis(), plan_.slow_axis()};
     const auto [near, far] =
-        std::minmax(plan_.slice_plan(numbers.front()).place, plan_.slice_plan(numbers.back()).place);
+        std::minmax({plan_.node_place(numbers.front()), plan_.node_place(numbers.back())});
     VoxelRegion region{{0, 0, static_cast<std::int64_t>(near)},
                        {0, 0, static_cast<std::int64_t>(std::ceil(far))}};
     for (std::size_t n = 0; n < axes.size(); ++n) {
         const MicroRun& octants = n == 0 ? fast : slow;
         const auto a = static_cast<std::size_t>(axes[n]);
         const std::int64_t first = codes_.micro_bricks().first(axes[n]) * micro_edge;
-        region.lo[n] = std::max(first + octants.first * CodeVolume::octant_edge, codes_.box().lo[a]);
-        region.hi[n] = std::min(first + octants.end * CodeVolume::octant_edge, codes_.box().hi[a]);
+        region.lo[n] = std::max(first + octants.first * CodeVolume::octant_edge, codes_.own().lo[a]);
+        region.hi[n] = std::min(first + octants.end * CodeVolume::octant_edge, codes_.own().hi[a]);
     }
     return region;
 }
@@ -92,8 +92,8 @@ VoxelRegion Tile<Code>::between_planes(std::int64_t lo, std::int64_t hi) const {
     }
     VoxelRegion region{{0, 0, lo}, {0, 0, hi}};
     for (std::size_t n = 0; n < 2; ++n) {
-        const auto first = static_cast<double>(codes_.box().lo[static_cast<std::size_t>(axes[n])]);
-        const auto last = static_cast<double>(codes_.box().hi[static_cast<std::size_t>(axes[n])]);
+        const auto first = static_cast<double>(nodes_.lo[static_cast<std::size_t>(axes[n])]);
+        const auto last = static_cast<double>(nodes_.hi[static_cast<std::size_t>(axes[n])]);
         region.lo[n] = static_cast<std::int64_t>(std::clamp(std::floor(ends[n].first), first, last));
         region.hi[n] = static_cast<std::int64_t>(std::clamp(std::floor(ends[n].second) + 1, first, last));
     }
@@ -101,13 +101,14 @@ VoxelRegion Tile<Code>::between_planes(std::int64_t lo, std::int64_t hi) const {
 }
 
 // The region and what the tile needs of the planes about it, up to whole blocks of them: what is turned
-// together.
+// together. Segments that begin in a block end on a plane behind it.
 template <class Code>
 VoxelRegion Tile<Code>::with_block(const VoxelRegion& region) const {
     constexpr std::int64_t block = 2 * micro_edge;
     const auto axis = static_cast<std::size_t>(plan_.face().axis);
-    const std::int64_t lo = std::max(region.lo[2] / block * block, codes_.box().lo[axis]);
-    const std::int64_t hi = std::max(region.hi[2], std::min(lo + block - 1, codes_.box().hi[axis]));
+    const std::int64_t last = block - (classification_.segments ? 0 : 1);
+    const std::int64_t lo = std::max(region.lo[2] / block * block, nodes_.lo[axis]);
+    const std::int64_t hi = std::max(region.hi[2], std::min(lo + last, nodes_.hi[axis]));
     VoxelRegion more = between_planes(lo, hi);
     for (std::size_t n = 0; n < 2; ++n) {
         more.lo[n] = std::min(more.lo[n], region.lo[n]);
@@ -126,9 +127,7 @@ VoxelRegion Tile<Code>::behind(const VoxelRegion& region) const {
     const auto axis = static_cast<std::size_t>(plan_.face().axis);
     const bool adjacent = axis == 0;
     const std::int64_t away = plan_.face().sign * (adjacent ? planes_of_line : micro_edge);
-    const auto plane = [&](std::int64_t w) {
-        return std::clamp(w + away, codes_.box().lo[axis], codes_.box().hi[axis]);
-    };
+    const auto plane = [&](std::int64_t w) { return std::clamp(w + away, nodes_.lo[axis], nodes_.hi[axis]); };
     VoxelRegion next = between_planes(plane(region.lo[2]), plane(region.hi[2]));
     if (adjacent) {
         const std::int64_t part = region.lo[2] / micro_edge % parts;
@@ -139,13 +138,15 @@ VoxelRegion Tile<Code>::behind(const VoxelRegion& region) const {
     return next;
 }
 
-template VoxelRegion Tile<std::uint8_t>::region_of(Slices, std::span<const std::int64_t>) const;
+template VoxelRegion Tile<std::uint8_t>::region_of(Slices, std::span<const std::int64_t>,
+                                                   const volume::Box&) const;
 template VoxelRegion Tile<std::uint8_t>::region_of(const MicroRun&, const MicroRun&,
                                                    std::span<const std::int64_t>) const;
 template VoxelRegion Tile<std::uint8_t>::between_planes(std::int64_t, std::int64_t) const;
 template VoxelRegion Tile<std::uint8_t>::with_block(const VoxelRegion&) const;
 template VoxelRegion Tile<std::uint8_t>::behind(const VoxelRegion&) const;
-template VoxelRegion Tile<std::uint16_t>::region_of(Slices, std::span<const std::int64_t>) const;
+template VoxelRegion Tile<std::uint16_t>::region_of(Slices, std::span<const std::int64_t>,
+                                                    const volume::Box&) const;
 template VoxelRegion Tile<std::uint16_t>::region_of(const MicroRun&, const MicroRun&,
                                                     std::span<const std::int64_t>) const;
 template VoxelRegion Tile<std::uint16_t>::between_planes(std::int64_t, std::int64_t) const;

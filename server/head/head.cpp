@@ -337,7 +337,8 @@ void Head::begin_frames(wire::LinkId client, Session& session, wire::Time now, E
         const wire::View& view = *session.latest;
         view::Factorisation factorisation = view::factorise(
             view.camera, view.size, roster_.cube().lattice,
-            view::sampling(view.quality, view.level_of_detail.value_or(limits_.level_of_detail)));
+            view::sampling(view.quality, view.level_of_detail.value_or(limits_.level_of_detail),
+                           view.classify));
         pb::Render render;
         if (sketch) {
             factorisation.slice_exponent = roster_.cube().sketch_level;

@@ -90,6 +90,18 @@ TEST_F(SessionTest, UnansweredViewsAreBounded) {
     EXPECT_EQ(views_.back().camera, camera(wish_.viewpoint, status().cube->lattice));
 }
 
+TEST_F(SessionTest, HowToDrawIsPartOfTheWish) {
+    connect();
+    want(Change::single);
+    EXPECT_EQ(views_.back().classify, view::Classify::post);
+    EXPECT_TRUE(views_.back().level_of_detail);
+    wish_.classify = view::Classify::pre_integrated;
+    wish_.level_of_detail = false;
+    want(Change::single);
+    EXPECT_EQ(views_.back().classify, view::Classify::pre_integrated);
+    EXPECT_FALSE(views_.back().level_of_detail);
+}
+
 TEST_F(SessionTest, TheSameWishAgainSendsNothing) {
     connect();
     want();

@@ -29,8 +29,8 @@ class Commands : public testing::Test {
 };
 
 TEST_F(Commands, SnapshotIsTheSameWithAndWithoutDaemons) {
-    for (const std::string view :
-         {"--azimuth 77 --elevation -20 --size 201x133", "--parallel --quality high"}) {
+    for (const std::string view : {"--azimuth 77 --elevation -20 --size 201x133", "--parallel --quality high",
+                                   "--azimuth 130 --classify pre-integrated --size 150x140"}) {
         ASSERT_EQ(run("snapshot " + cube_ + " -o " + png_ + " --tree 1,1 " + view).status, 0);
         const auto single = image::read_png(png_);
         ASSERT_EQ(run("snapshot " + cube_ + " -o " + png_ + " --tree 3,2 " + view).status, 0);
@@ -98,6 +98,11 @@ TEST_F(Commands, MistakesGetOneLine) {
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --bits 12", "bits");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --lod some", "lod");
     expect_mistake("serve " + cube_ + " --lod some", "lod");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --classify", "classify");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --classify preintegrated", "classify");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --classify post --classify post", "classify");
+    expect_mistake("view " + cube_ + " --classify ''", "classify");
+    expect_mistake("bench frame --classify both", "classify");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --tree 2", "tree");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --tree 65,2", "branching");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --tree 40,2", "too few");

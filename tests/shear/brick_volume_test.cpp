@@ -38,8 +38,9 @@ class WatchedCube final : public volume::VoxelSource {
 template <class Code>
 void expect_codes(const BrickVolume& volume, const FloatCube& cube) {
     const CodeVolume& voxels = volume.level(0);
-    ASSERT_EQ(voxels.box(), volume.box());
-    const Box& box = volume.box();
+    ASSERT_EQ(voxels.own(), volume.box());
+    const Box& box = voxels.box();
+    ASSERT_EQ(box, volume::nodes_kept(volume.box(), 0, cube.n()));
     for (std::int64_t z = box.lo[2]; z <= box.hi[2]; ++z) {
         for (std::int64_t y = box.lo[1]; y <= box.hi[1]; ++y) {
             for (std::int64_t x = box.lo[0]; x <= box.hi[0]; ++x) {
@@ -50,14 +51,15 @@ void expect_codes(const BrickVolume& volume, const FloatCube& cube) {
     }
 }
 
-// What occurs on the planes of one cube of a grid, voxel by voxel.
-CodeRange range_of(const BrickVolume& volume, const CodeGrid& grid, const Index3& at, const FloatCube& cube) {
+// What occurs on the planes of one cube of a grid, and so many beyond, voxel by voxel.
+CodeRange range_of(const BrickVolume& volume, const CodeGrid& grid, const Index3& at, const FloatCube& cube,
+                   std::int64_t beyond = 0) {
     Box part;
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         const std::int64_t start = (grid.first(axis) + at[a]) * grid.edge();
-        part.lo[a] = std::max(start, volume.box().lo[a]);
-        part.hi[a] = std::min(start + grid.edge(), volume.box().hi[a]);
+        part.lo[a] = std::max<std::int64_t>(std::max(start, volume.box().lo[a]) - beyond, 0);
+        part.hi[a] = std::min(std::min(start + grid.edge(), volume.box().hi[a]) + beyond, cube.n()[a] - 1);
     }
     CodeRange range;
     for (std::int64_t z = part.lo[2]; z <= part.hi[2]; ++z) {
@@ -77,6 +79,19 @@ void expect_ranges(const BrickVolume& volume, const CodeGrid& grid, const FloatC
         for (at[1] = 0; at[1] < grid.counts()[1]; ++at[1]) {
             for (at[0] = 0; at[0] < grid.counts()[0]; ++at[0]) {
                 ASSERT_EQ(grid.ranges()[grid.index(at)], range_of(volume, grid, at, cube))
+                    << at[0] << ", " << at[1] << ", " << at[2];
+            }
+        }
+    }
+}
+
+void expect_reaches(const BrickVolume& volume, const FloatCube& cube) {
+    const CodeGrid& grid = volume.level(0).micro_bricks();
+    Index3 at;
+    for (at[2] = 0; at[2] < grid.counts()[2]; ++at[2]) {
+        for (at[1] = 0; at[1] < grid.counts()[1]; ++at[1]) {
+            for (at[0] = 0; at[0] < grid.counts()[0]; ++at[0]) {
+                ASSERT_EQ(volume.level(0).reaches()[grid.index(at)], range_of(volume, grid, at, cube, 1))
                     << at[0] << ", " << at[1] << ", " << at[2];
             }
         }
@@ -111,6 +126,7 @@ TEST(BrickVolume, HoldsEveryVoxelsCode) {
                               : expect_codes<std::uint16_t>(*volume, cube);
                     expect_ranges(*volume, volume->level(0).micro_bricks(), cube);
                     expect_ranges(*volume, volume->bricks(), cube);
+                    expect_reaches(*volume, cube);
                 }
                 if (box.voxels() > 10000 && slab == 1U) {
                     break;

@@ -128,6 +128,7 @@ struct Taking {
     std::size_t every = 1;  // of all views
     ImageSize size{90, 70};
     view::Sampling sampling{};
+    view::TransferFunction tf = ramp_to(0.2);
 };
 
 // Returns how many pictures were taken of each level of detail.
@@ -136,7 +137,6 @@ std::map<int, int> expect_one_picture(FloatCube& cube, const std::vector<Node>& 
     base::Workers workers;
     const Lattice lattice{cube.n(), taking.spacing};
     const Tree whole({.box = volume::whole(cube.n())}, cube, workers, taking.mapping);
-    const auto tf = ramp_to(0.2);
     // Nothing gets opaque under this one, so every sample is taken by whoever owns it.
     const view::TransferFunction thin{.opacity_pins = {view::Flat{1e-9}}, .colour_pins = {{0, {1, 1, 1}}}};
     std::map<int, int> levels;
@@ -148,11 +148,11 @@ std::map<int, int> expect_one_picture(FloatCube& cube, const std::vector<Node>& 
         const auto picture = [&](const Tree& tree, const view::TransferFunction& by) {
             return picture_of_tree(tree, lattice, view.camera, taking.size, by, workers, taking.sampling);
         };
-        const Picture one = picture(whole, tf);
+        const Picture one = picture(whole, taking.tf);
         const Picture count = picture(whole, thin);
         ++levels[one.level];
         for (std::size_t i = 0; i < trees.size(); ++i) {
-            const Picture many = picture(trees[i], tf);
+            const Picture many = picture(trees[i], taking.tf);
             EXPECT_LE(largest_difference(one.pixels, many.pixels), 1) << view.name << ", division " << i;
             EXPECT_GE(psnr(one.pixels, many.pixels), 60) << view.name << ", division " << i;
             EXPECT_EQ(picture(trees[i], thin).samples, count.samples) << view.name << ", division " << i;
@@ -227,6 +227,63 @@ TEST(Division, OnCoarserLevelsGivesOnePicture) {
     const auto levels = expect_one_picture(
         cube, divisions, {.every = 3, .size = {37, 29}, .sampling = {.level_of_detail = true}});
     EXPECT_GT(levels.contains(2) ? levels.at(2) : 0, 2);
+}
+
+// Segments that begin in one part and end in another, and a transfer function that shows where one is cut
+// short: most of what is seen lies between two samples.
+class DivisionOfSegments : public testing::Test {
+  protected:
+    static Taking taking(std::size_t every, const view::ImageSize& size, const view::Sampling& sampling) {
+        Taking made{.every = every, .size = size, .sampling = sampling};
+        made.sampling.classify = view::Classify::pre_integrated;
+        made.tf.opacity_pins = {view::Hat{0.4, 0.01, 0.01, 0.9}, view::Hat{0.7, 0.03, 0.03, 0.5}};
+        return made;
+    }
+};
+
+TEST_F(DivisionOfSegments, AcrossEveryAxisGivesOnePicture) {
+    FloatCube cube = noise_cube({27, 41, 33}, 5);
+    const Box whole = volume::whole(cube.n());
+    std::vector<Node> divisions;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const int pieces : {2, 5}) {
+            divisions.push_back(even_cut(whole, axis, pieces));
+        }
+    }
+    expect_one_picture(cube, divisions, taking(1, {60, 50}, {}));
+    expect_one_picture(cube, divisions, taking(4, {60, 50}, view::sampling(view::Quality::high)));
+}
+
+TEST_F(DivisionOfSegments, IntoSliversGivesOnePicture) {
+    FloatCube cube = noise_cube({34, 33, 35}, 6);
+    for (std::size_t i = 0; i < cube.values().size(); i += 11) {
+        cube.values()[i] = std::numeric_limits<float>::quiet_NaN();
+    }
+    Node slivers = cut(volume::whole(cube.n()), 0, {1, 2, 20, 32});
+    slivers.parts[2] = cut(slivers.parts[2].box, 1, {31});
+    slivers.parts[3] = cut(slivers.parts[3].box, 2, {1, 17, 33});
+    for (const auto quality : {view::Quality::normal, view::Quality::high}) {
+        Taking pictures = taking(3, {60, 50}, view::sampling(quality));
+        pictures.mapping.bits = 16;
+        pictures.spacing = {1, 0.4, 1.7};
+        expect_one_picture(cube, {slivers}, pictures);
+    }
+}
+
+TEST_F(DivisionOfSegments, OnCoarserLevelsGivesOnePicture) {
+    FloatCube cube = noise_cube({131, 67, 97}, 7);
+    for (std::size_t i = 0; i < cube.values().size(); i += 7) {
+        cube.values()[i] = std::numeric_limits<float>::quiet_NaN();
+    }
+    const Box whole = volume::whole(cube.n());
+    Node tree{.box = whole};
+    divide(tree, 2, 3);
+    const std::vector<Node> divisions{tree, cut(whole, 0, {1, 2, 3, 37, 41, 129}), even_cut(whole, 1, 3),
+                                      even_cut(whole, 2, 7)};
+    auto levels = expect_one_picture(cube, divisions, taking(3, {71, 55}, {.level_of_detail = true}));
+    EXPECT_GT(levels[1], 2);
+    levels = expect_one_picture(cube, divisions, taking(4, {37, 29}, {.level_of_detail = true}));
+    EXPECT_GT(levels[2], 2);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/image/warp.h"
@@ -33,6 +34,11 @@ struct Worst {
         ++pixels;
     }
 };
+
+constexpr std::array both_ways{view::Classify::post, view::Classify::pre_integrated};
+const char* name_of(view::Classify classify) {
+    return classify == view::Classify::post ? ", post" : ", pre-integrated";
+}
 
 // The ray of an intermediate pixel, by the definition in the header.
 Chord chord_of_pixel(const Factorisation& f, const Face& face, double i, double j) {
@@ -147,13 +153,16 @@ TEST_P(SlabTest, HasTheOpacityOfItsThicknessInEveryView) {
     for (const double depth : {0.001, 2.0}) {  // through the diagonal
         const double tau = depth / lattice.diagonal();
         for (const auto& [name, camera] : all_views(lattice, depth < 1 ? 5 : 1)) {
-            const auto f = view::factorise(camera, size, lattice, {1});
-            const auto windows = shear::render(volume, f, flat(tau), workers);
-            EXPECT_LT(window_error(f, windows, tau).error, 2e-4) << name << ", depth " << depth;
-            const Worst worst = picture_error(picture_of(volume, lattice, flat(tau), camera, size, workers),
-                                              lattice, camera, tau);
-            EXPECT_LT(worst.error, 0.01) << name << ", depth " << depth;
-            pixels += worst.pixels;
+            for (const view::Classify classify : both_ways) {
+                const auto f = view::factorise(camera, size, lattice, {.classify = classify});
+                const auto windows = shear::render(volume, f, flat(tau), workers);
+                EXPECT_LT(window_error(f, windows, tau).error, 2e-4)
+                    << name << ", depth " << depth << name_of(classify);
+                const auto picture = image::warp_float(f, windows, camera, size, workers);
+                const Worst worst = picture_error(picture, lattice, camera, tau);
+                EXPECT_LT(worst.error, 0.01) << name << ", depth " << depth << name_of(classify);
+                pixels += worst.pixels;
+            }
         }
     }
     EXPECT_GT(pixels, 1000);
@@ -177,13 +186,17 @@ TEST(SlabTest, HasTheSameOpacityOnEveryLevel) {
         for (const auto& [name, camera] : all_views(lattice, depth < 1 ? 5 : 1)) {
             auto f = view::factorise(camera, size, lattice, {1});
             for (f.slice_exponent = 1; f.slice_exponent < volume.levels(); ++f.slice_exponent) {
-                const auto windows = shear::render(volume, f, flat(tau), workers);
-                EXPECT_LT(window_error(f, windows, tau).error, 2e-4)
-                    << name << ", level " << f.slice_exponent;
-                const auto picture = image::warp_float(f, windows, camera, size, workers);
-                const Worst worst = picture_error(picture, lattice, camera, tau, f.slice_pitch());
-                EXPECT_LT(worst.error, 0.02) << name << ", level " << f.slice_exponent;
-                pixels += worst.pixels;
+                for (const view::Classify classify : both_ways) {
+                    f.classify = classify;
+                    const auto windows = shear::render(volume, f, flat(tau), workers);
+                    EXPECT_LT(window_error(f, windows, tau).error, 2e-4)
+                        << name << ", level " << f.slice_exponent << name_of(classify);
+                    const auto picture = image::warp_float(f, windows, camera, size, workers);
+                    const Worst worst = picture_error(picture, lattice, camera, tau, f.slice_pitch());
+                    EXPECT_LT(worst.error, 0.02)
+                        << name << ", level " << f.slice_exponent << name_of(classify);
+                    pixels += worst.pixels;
+                }
             }
         }
     }
@@ -198,15 +211,18 @@ TEST(SlabTest, ShortRaysGetNoMoreThanTheirDue) {
     const auto volume = bricks_of(cube, workers);
     const double tau = 0.1;
     for (const auto& [name, camera] : all_views(lattice)) {
-        const auto f = view::factorise(camera, {120, 120}, lattice, {1});
-        for (const image::Window& window : shear::render(volume, f, flat(tau), workers)) {
-            const Face& face = f.faces[static_cast<std::size_t>(window.face)];
-            for (int j = window.rect.y0; j < window.rect.y1; ++j) {
-                for (int i = window.rect.x0; i < window.rect.x1; ++i) {
-                    const double due = -std::expm1(-tau * chord_of_pixel(f, face, i, j).length);
-                    const auto alpha =
-                        static_cast<double>(window.pixels.at(i - window.rect.x0, j - window.rect.y0).a);
-                    ASSERT_LT(alpha, due * 1.0002 + 1e-7) << name;
+        auto f = view::factorise(camera, {120, 120}, lattice, {1});
+        for (const view::Classify classify : both_ways) {
+            f.classify = classify;
+            for (const image::Window& window : shear::render(volume, f, flat(tau), workers)) {
+                const Face& face = f.faces[static_cast<std::size_t>(window.face)];
+                for (int j = window.rect.y0; j < window.rect.y1; ++j) {
+                    for (int i = window.rect.x0; i < window.rect.x1; ++i) {
+                        const double due = -std::expm1(-tau * chord_of_pixel(f, face, i, j).length);
+                        const auto alpha =
+                            static_cast<double>(window.pixels.at(i - window.rect.x0, j - window.rect.y0).a);
+                        ASSERT_LT(alpha, due * 1.0002 + 1e-7) << name << name_of(classify);
+                    }
                 }
             }
         }
@@ -227,10 +243,13 @@ TEST(BallTest, HasTheOpacityOfItsChordInEveryView) {
         FloatCube cube = ball(lattice, radius);
         const auto volume = bricks_of(cube, workers);
         for (const auto& [name, camera] : all_views(lattice)) {
-            const auto picture = picture_of(volume, lattice, proportional(tau), camera, {140, 120}, workers);
-            const Worst worst = ball_error(picture, camera, radius, tau, 4);
-            EXPECT_LT(worst.error, 0.01) << name;
-            EXPECT_GT(worst.pixels, 100) << name;
+            for (const view::Classify classify : both_ways) {
+                const auto picture = picture_of(volume, lattice, proportional(tau), camera, {140, 120},
+                                                workers, {.classify = classify});
+                const Worst worst = ball_error(picture, camera, radius, tau, 4);
+                EXPECT_LT(worst.error, 0.01) << name << name_of(classify);
+                EXPECT_GT(worst.pixels, 100) << name << name_of(classify);
+            }
         }
     }
 }
@@ -246,11 +265,14 @@ TEST(BallTest, HasTheSameOpacityOnEveryLevel) {
     for (const auto& [name, camera] : all_views(lattice)) {
         auto f = view::factorise(camera, {140, 120}, lattice, {1});
         for (f.slice_exponent = 1; f.slice_exponent < volume.levels(); ++f.slice_exponent) {
-            const auto windows = shear::render(volume, f, proportional(tau), workers);
-            const auto picture = image::warp_float(f, windows, camera, {140, 120}, workers);
-            const Worst worst = ball_error(picture, camera, radius, tau, 20);
-            EXPECT_LT(worst.error, 0.02) << name << ", level " << f.slice_exponent;
-            EXPECT_GT(worst.pixels, 100) << name;
+            for (const view::Classify classify : both_ways) {
+                f.classify = classify;
+                const auto windows = shear::render(volume, f, proportional(tau), workers);
+                const auto picture = image::warp_float(f, windows, camera, {140, 120}, workers);
+                const Worst worst = ball_error(picture, camera, radius, tau, 20);
+                EXPECT_LT(worst.error, 0.02) << name << ", level " << f.slice_exponent << name_of(classify);
+                EXPECT_GT(worst.pixels, 100) << name;
+            }
         }
     }
 }

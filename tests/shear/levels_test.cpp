@@ -118,15 +118,23 @@ void expect_level(const CodeVolume& volume, const Level& truth) {
                   Box part;
                   for (int axis = 0; axis < 3; ++axis) {
                       const auto a = static_cast<std::size_t>(axis);
-                      part.lo[a] = std::max((grid.first(axis) + at[a]) * grid.edge(), volume.box().lo[a]);
-                      part.hi[a] = std::min((grid.first(axis) + at[a] + 1) * grid.edge(), volume.box().hi[a]);
+                      part.lo[a] = std::max((grid.first(axis) + at[a]) * grid.edge(), volume.own().lo[a]);
+                      part.hi[a] = std::min((grid.first(axis) + at[a] + 1) * grid.edge(), volume.own().hi[a]);
                   }
-                  CodeRange range;
-                  for_nodes(part, [&](const Index3& p) {
-                      const auto code = static_cast<std::uint16_t>(truth.at(p));
-                      range.add(code == 0 ? CodeRange{.blanks = true} : CodeRange{code, code, false});
-                  });
-                  ASSERT_EQ(grid.ranges()[grid.index(at)], range);
+                  const auto range_of = [&](const Box& nodes) {
+                      CodeRange range;
+                      for_nodes(nodes, [&](const Index3& p) {
+                          const auto code = static_cast<std::uint16_t>(truth.at(p));
+                          range.add(code == 0 ? CodeRange{.blanks = true} : CodeRange{code, code, false});
+                      });
+                      return range;
+                  };
+                  ASSERT_EQ(grid.ranges()[grid.index(at)], range_of(part));
+                  for (std::size_t a = 0; a < 3; ++a) {
+                      part.lo[a] = std::max<std::int64_t>(part.lo[a] - 1, 0);
+                      part.hi[a] = std::min(part.hi[a] + 1, truth.last[a]);
+                  }
+                  ASSERT_EQ(volume.reaches()[grid.index(at)], range_of(part));
               });
 }
 
@@ -151,7 +159,8 @@ TEST(Levels, AreTheSameWhateverTheBox) {
                 for (int level = 0; level < 3; ++level) {
                     SCOPED_TRACE(to_string(box) + ", level " + std::to_string(level));
                     const CodeVolume& codes = volume.level(level);
-                    ASSERT_EQ(codes.box(), volume::nodes_of(box, level));
+                    ASSERT_EQ(codes.own(), volume::nodes_of(box, level));
+                    ASSERT_EQ(codes.box(), volume::nodes_kept(box, level, n));
                     bits == 8 ? expect_level<std::uint8_t>(codes, truth[static_cast<std::size_t>(level)])
                               : expect_level<std::uint16_t>(codes, truth[static_cast<std::size_t>(level)]);
                 }
@@ -172,7 +181,7 @@ class Formula final : public volume::VoxelSource {
     bool concurrent() const override { return true; }
 };
 
-TEST(Levels, TakeASeventhOfTheVoxelsAndNoMarginStays) {
+TEST(Levels, TakeASeventhOfTheVoxelsAndLittleMarginStays) {
     base::Workers workers;
     Formula source;
     const Index3 n{512, 512, 512};

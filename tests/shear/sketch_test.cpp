@@ -58,7 +58,7 @@ FloatCube spotted_cube(const Index3& n) {
 template <class Code>
 void expect_nodes(const shear::BrickVolume& volume, int level, const FloatCube& cube) {
     const shear::CodeVolume& nodes = volume.level(level);
-    ASSERT_EQ(nodes.box(), volume::nodes_of(volume.box(), level));
+    ASSERT_EQ(nodes.box(), volume::nodes_kept(volume.box(), level, cube.n()));
     Index3 p;
     for (p[2] = nodes.box().lo[2]; p[2] <= nodes.box().hi[2]; ++p[2]) {
         for (p[1] = nodes.box().lo[1]; p[1] <= nodes.box().hi[1]; ++p[1]) {
@@ -96,7 +96,7 @@ TEST(Sketch, ReadsOneRowForEachRowOfNodes) {
     for (const Box& box : boxes) {
         Watched source(cube);
         ASSERT_TRUE(Sketch::read(source, box, cube.n(), 2, workers).has_value());
-        const Box nodes = volume::nodes_of(box, 2);
+        const Box nodes = volume::nodes_kept(box, 2, cube.n());
         EXPECT_EQ(source.reads, nodes.planes(1) * nodes.planes(2));
         EXPECT_LE(source.voxels,
                   static_cast<std::size_t>(source.reads) * static_cast<std::size_t>(cube.n()[0]));

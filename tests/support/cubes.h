@@ -39,6 +39,7 @@ inline std::vector<wire::View> twenty_views(const view::Lattice& lattice) {
                     : i % 3 == 1 ? view::Quality::normal
                                  : view::Quality::draft;
         v.deflate = i % 2 == 0;
+        v.classify = i / 4 % 2 == 0 ? view::Classify::post : view::Classify::pre_integrated;
         v.tf = view::default_transfer_function();
         v.tf.opacity_pins = {view::Ramp{.x0 = 0.1, .a0 = 0, .x1 = 1, .a1 = i % 5 == 0 ? 0.9 : 0.15}};
         views.push_back(std::move(v));
@@ -53,8 +54,9 @@ class Single {
         : volume_(load(path, mapping, workers_)), lattice_{.n = volume_.cube(), .spacing = spacing} {}
 
     image::Image<image::Rgba8> draw(const wire::View& v) {
-        const auto factorisation = view::factorise(
-            v.camera, v.size, lattice_, view::sampling(v.quality, v.level_of_detail.value_or(true)));
+        const auto factorisation =
+            view::factorise(v.camera, v.size, lattice_,
+                            view::sampling(v.quality, v.level_of_detail.value_or(true), v.classify));
         const auto windows = shear::render(volume_, factorisation, v.tf, workers_);
         return image::warp(factorisation, windows, v.camera, v.size, v.tf.background, workers_);
     }

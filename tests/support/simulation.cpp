@@ -173,7 +173,7 @@ struct Simulation::Renderer final : Simulation::Daemon {
         if (bands.empty()) {
             tell(leaf::Drawn{draw.job, wire::windows_message(draw.frame, 0, {}), true});
         }
-        const auto classified = shear::classify(volume, draw.tf, sim.workers_);
+        const auto classified = shear::classify(volume, draw.tf, draw.factorisation.classify, sim.workers_);
         shear::render_bands(
             volume, classified, draw.factorisation, bands, sim.workers_, [&](const shear::DrawnBands& drawn) {
                 const bool last = drawn.bands == bands.size();

@@ -274,6 +274,11 @@ TEST(Factorise, KeepsToTheLevelsThatTheCubeHas) {
     EXPECT_EQ(factorise(near, {64, 64}, small, {.level_of_detail = true}).slice_exponent, 0);
     EXPECT_TRUE(sampling(Quality::draft, true).level_of_detail);
     EXPECT_FALSE(sampling(Quality::high, false).level_of_detail);
+    EXPECT_EQ(sampling(Quality::high).classify, Classify::post);
+    for (const Classify classify : {Classify::post, Classify::pre_integrated}) {
+        EXPECT_EQ(factorise(near, {64, 64}, small, sampling(Quality::draft, true, classify)).classify,
+                  classify);
+    }
 }
 
 TEST(Factorise, TakesTwoSlicesAVoxelWhereVoxelsSpanMoreThanAPixel) {

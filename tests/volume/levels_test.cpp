@@ -44,6 +44,13 @@ TEST(Levels, HoldTheNodesAboutABox) {
     EXPECT_EQ(nodes_of(box, 3), (Box{{0, 1, 1}, {1, 3, 13}}));
 }
 
+TEST(Levels, KeepAMarginOfOneNodeInsideTheCube) {
+    const Index3 n{101, 60, 30};
+    EXPECT_EQ(nodes_kept({{7, 0, 9}, {8, 17, 29}}, 0, n), (Box{{6, 0, 8}, {9, 18, 29}}));
+    EXPECT_EQ(nodes_kept({{7, 0, 9}, {98, 17, 29}}, 1, n), (Box{{2, 0, 3}, {50, 10, 15}}));
+    EXPECT_EQ(nodes_kept(whole(n), 0, n), whole(n));
+}
+
 TEST(Levels, AreMadeFromWhatLiesAboutTheBox) {
     const Index3 n{300, 200, 129};
     for (const Box& box : {whole(n), Box{{0, 0, 0}, {1, 1, 1}}, Box{{150, 100, 64}, {299, 199, 128}},
@@ -52,7 +59,7 @@ TEST(Levels, AreMadeFromWhatLiesAboutTheBox) {
         ASSERT_EQ(levels.size(), 4U);
         for (int level = 0; level < 4; ++level) {
             const Box& nodes = levels[static_cast<std::size_t>(level)];
-            EXPECT_TRUE(nodes.contains(nodes_of(box, level)));
+            EXPECT_TRUE(nodes.contains(nodes_kept(box, level, n)));
             EXPECT_TRUE((Box{{0, 0, 0}, last_nodes(n, level)}.contains(nodes)));
             if (level > 0) {
                 EXPECT_TRUE(levels[static_cast<std::size_t>(level) - 1].contains(
@@ -61,7 +68,7 @@ TEST(Levels, AreMadeFromWhatLiesAboutTheBox) {
         }
     }
     EXPECT_EQ(nodes_to_make(whole(n), n).front(), whole(n));
-    EXPECT_EQ(nodes_to_make({{0, 0, 0}, {128, 199, 128}}, n).front().hi, (Index3{135, 199, 128}));
+    EXPECT_EQ(nodes_to_make({{0, 0, 0}, {128, 199, 128}}, n).front().hi, (Index3{143, 199, 128}));
 }
 
 }  // namespace

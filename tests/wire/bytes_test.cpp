@@ -148,6 +148,20 @@ TEST(Bytes, OfWhatHasToDoWithSketches) {
     }
 }
 
+// And what pre-integrated classification does, of a view and of a factorisation.
+TEST(Bytes, OfPreIntegratedClassification) {
+    constexpr std::size_t header_digits = 2 * header_bytes;
+    const auto body = [](const Message& whole) { return hex(encode_head(whole)).substr(header_digits); };
+    View view = view_request();
+    const std::string post = body(message(to_wire(view)));
+    view.classify = view::Classify::pre_integrated;
+    EXPECT_EQ(body(message(to_wire(view))), post + "4801");
+    pb::Factorisation plain = to_wire(factorisation());
+    view::Factorisation changed = factorisation();
+    changed.classify = view::Classify::pre_integrated;
+    EXPECT_EQ(to_wire(changed).SerializeAsString(), plain.SerializeAsString() + "\x38\x01");
+}
+
 TEST(Bytes, OfEveryMessageAreReadBack) {
     for (const Message& example : all_examples()) {
         const std::vector<std::byte> head = encode_head(example);

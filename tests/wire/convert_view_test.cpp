@@ -41,8 +41,10 @@ TEST(ViewConversion, ThereAndBack) {
             EXPECT_EQ(back.deflate, view.deflate);
             EXPECT_EQ(back.level_of_detail, view.level_of_detail);
             EXPECT_EQ(back.sketch, view.sketch);
+            EXPECT_EQ(back.classify, view.classify);
             view.level_of_detail = !view.level_of_detail.value_or(false);
             view.sketch = !view.sketch;
+            view.classify = view.sketch ? view::Classify::post : view::Classify::pre_integrated;
         }
     }
 }
@@ -89,6 +91,11 @@ TEST(ViewConversion, HostileSizesAndChoices) {
     });
     for (const int quality : {3, -1, 99}) {
         refused("quality", [&](pb::SetView& v) { v.set_quality(static_cast<pb::Quality>(quality)); });
+    }
+    for (const int classification : {2, -1, 1 << 30}) {
+        refused("classification", [&](pb::SetView& v) {
+            v.set_classification(static_cast<pb::Classification>(classification));
+        });
     }
     refused("transfer function", [](pb::SetView& v) { v.clear_transfer_function(); });
 }
@@ -144,8 +151,11 @@ TEST(FactorisationConversion, ThereAndBack) {
         EXPECT_EQ(back.lattice.spacing, f.lattice.spacing);
         EXPECT_EQ(back.eye, f.eye);
         EXPECT_EQ(back.direction, f.direction);
+        EXPECT_EQ(back.classify, f.classify);
         EXPECT_EQ(back.faces, f.faces);
     };
+    expect_same();
+    f.classify = view::Classify::pre_integrated;
     expect_same();
     f.projection = view::Projection::parallel;
     f.faces.pop_back();
@@ -198,6 +208,11 @@ TEST(FactorisationConversion, Hostile) {
     }
     for (const int exponent : {-2, 4, 6, 1000}) {  // this cube has three levels besides its voxels
         refused("slice_exponent", [&](pb::Factorisation& f) { f.set_slice_exponent(exponent); });
+    }
+    for (const int classification : {2, -1, 1 << 30}) {
+        refused("classification", [&](pb::Factorisation& f) {
+            f.set_classification(static_cast<pb::Classification>(classification));
+        });
     }
     refused("projection", [](pb::Factorisation& f) { f.set_projection(static_cast<pb::Projection>(7)); });
     refused("lattice", [](pb::Factorisation& f) { f.clear_lattice(); });
