@@ -17,8 +17,8 @@ namespace {
 // A little more than so many codes, if need be: rows or planes that lie a large power of two apart would
 // compete for the same few lines of the caches.
 std::int64_t padded(std::int64_t codes, std::int64_t code_bytes) {
-    constexpr std::int64_t vector = 16, line = 64, far = 512;
-    const std::int64_t bytes = (codes * code_bytes + vector - 1) / vector * vector;
+    constexpr std::int64_t word = 4, line = 64, far = 512;
+    const std::int64_t bytes = (codes * code_bytes + word - 1) / word * word;
     return (bytes % far == 0 ? bytes + line : bytes) / code_bytes;
 }
 

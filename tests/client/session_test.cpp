@@ -94,12 +94,12 @@ TEST_F(SessionTest, HowToDrawIsPartOfTheWish) {
     connect();
     want(Change::single);
     EXPECT_EQ(views_.back().classify, view::Classify::post);
-    EXPECT_TRUE(views_.back().level_of_detail);
+    EXPECT_EQ(views_.back().level_of_detail, std::nullopt);
     wish_.classify = view::Classify::pre_integrated;
     wish_.level_of_detail = false;
     want(Change::single);
     EXPECT_EQ(views_.back().classify, view::Classify::pre_integrated);
-    EXPECT_FALSE(views_.back().level_of_detail);
+    EXPECT_EQ(views_.back().level_of_detail, false);
 }
 
 TEST_F(SessionTest, TheSameWishAgainSendsNothing) {

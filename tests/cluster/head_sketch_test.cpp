@@ -105,16 +105,17 @@ class HeadSketchTest : public testing::Test {
         for (std::uint32_t place = 1; place <= 2; ++place) {
             pb::Windows windows;
             windows.set_frame(frame);
+            windows.set_bands(1);  // so small a picture has no more
             receive(child(place), windows);
         }
     }
     // As the service does it.
     void finish(const Finish& job) {
         pb::Frame frame;
-        frame.set_number(job.merge.frame);
+        frame.set_number(job.merge.frame->number);
         frame.set_revision(job.view.revision);
         frame.set_sketch(job.sketch);
-        take(head_->handle(Finished{job.merge.frame, wire::message(frame)}, now_));
+        take(head_->handle(Finished{job.merge.frame->number, wire::message(frame)}, now_));
     }
     void show(std::uint64_t number) {
         pb::FrameShown shown;

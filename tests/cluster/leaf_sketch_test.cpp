@@ -154,14 +154,14 @@ TEST_F(LeafSketchTest, IsDrawnWhileTheRestIsCountedAndLoaded) {
     receive(parent_, render(2, 1, by_sketch));
     ASSERT_THAT(draws_, SizeIs(1));
     EXPECT_EQ(draws_[0].sketch, by_sketch);
-    tell(Drawn{draws_[0].job, wire::windows_message(2, {})});
+    tell(Drawn{draws_[0].job, wire::windows_message(2, 1, {}), true});
     EXPECT_THAT(answered_, ElementsAre(2));
     receive(parent_, render(3, 0, {}));
     EXPECT_THAT(absent_, ElementsAre(1, 3)) << "the cube is not there";
     load();
     receive(parent_, render(4, 1, by_cube));
     ASSERT_THAT(draws_, SizeIs(2)) << "others may not be ready";
-    tell(Drawn{draws_[1].job, wire::windows_message(4, {})});
+    tell(Drawn{draws_[1].job, wire::windows_message(4, 1, {}), true});
     receive(parent_, render(5, 0, {}));
     ASSERT_THAT(draws_, SizeIs(3));
     EXPECT_FALSE(draws_[2].sketch);
@@ -177,7 +177,7 @@ TEST_F(LeafSketchTest, UnderWayIsNotStoppedByTheFirstLoad) {
     receive(parent_, render(2, 1, by_sketch));
     load();
     EXPECT_THAT(stopped_, IsEmpty());
-    tell(Drawn{draws_[0].job, wire::windows_message(1, {})});
+    tell(Drawn{draws_[0].job, wire::windows_message(1, 1, {}), true});
     EXPECT_THAT(draws_, SizeIs(2));
 }
 

@@ -42,7 +42,7 @@ struct Banded {
 };
 
 Banded render_in_bands(const BrickVolume& volume, const view::Factorisation& f, base::Workers& workers) {
-    const Classification classification = classify(volume, thin(), workers);
+    const Classification classification = classify(volume, thin(), view::Classify::post, workers);
     Banded banded;
     const auto keep = [&](DrawnBands drawn) { banded.drawn.push_back(std::move(drawn)); };
     banded.stats = render_bands(volume, classification, f, view::bands_of(f), workers, keep);
@@ -122,7 +122,7 @@ TEST(RenderBands, StopBetweenTwo) {
     FloatCube cube = waves();
     base::Workers workers(1);
     const BrickVolume volume = test::bricks_of(cube, workers);
-    const Classification classification = classify(volume, thin(), workers);
+    const Classification classification = classify(volume, thin(), view::Classify::post, workers);
     const auto f = view::factorise(cameras()[0], {560, 500}, lattice, {1});
     std::stop_source stop;
     std::size_t told = 0;

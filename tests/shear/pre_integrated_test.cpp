@@ -25,8 +25,11 @@ view::TransferFunction hat(double width) {
             .colour_pins = {{0, {1, 0.2, 0.1}}, {1, {0.1, 0.6, 1}}}};
 }
 
+// One slice a voxel, however near, or two.
 view::Sampling sampling(Quality quality, Classify classify) {
-    return view::sampling(quality, false, classify);
+    view::Sampling sampling = view::sampling(quality, false, classify);
+    sampling.finer_magnified = false;
+    return sampling;
 }
 
 // How near both come to rays in steps fine enough to hit the hat many times, in dB.

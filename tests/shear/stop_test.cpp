@@ -65,7 +65,7 @@ TEST(Stop, OfWhatFollowsReadingMakesNothing) {
     shear::CodeVolume voxels(volume::whole(n), 8);
     shear::CodeVolume coarse(volume::nodes_of(volume::whole(n), 1), 8);
     EXPECT_FALSE(shear::coarsen(voxels, coarse, 1, n, workers, stop.get_token()));
-    EXPECT_FALSE(voxels.survey(workers, stop.get_token()));
+    EXPECT_FALSE(voxels.survey(voxels.box(), workers, stop.get_token()));
     EXPECT_FALSE(voxels.crop({{1, 1, 1}, {100, 100, 60}}, stop.get_token()));
     EXPECT_TRUE(voxels.crop(voxels.box(), stop.get_token())) << "there is nothing to do";
     EXPECT_TRUE(voxels.crop({{1, 1, 1}, {100, 100, 60}}, {}));

@@ -155,7 +155,7 @@ TEST(Bytes, OfPreIntegratedClassification) {
     View view = view_request();
     const std::string post = body(message(to_wire(view)));
     view.classify = view::Classify::pre_integrated;
-    EXPECT_EQ(body(message(to_wire(view))), post + "4801");
+    EXPECT_EQ(body(message(to_wire(view))), post + "5001");
     pb::Factorisation plain = to_wire(factorisation());
     view::Factorisation changed = factorisation();
     changed.classify = view::Classify::pre_integrated;
