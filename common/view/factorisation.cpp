@@ -165,6 +165,10 @@ base::Status validate(const Factorisation& factorisation) {
         factorisation.slice_exponent > volume::coarsest_level(lattice.n)) {
         return refuse("its slices are closer than half a voxel, or of a level that the cube does not have");
     }
+    if (factorisation.classify == Classify::pre_integrated &&
+        factorisation.level() > volume::max_margin_level) {
+        return refuse("so coarse a level is not for pre-integrated classification");
+    }
     if (factorisation.faces.size() > Factorisation::max_faces) {
         return refuse("it has more than six faces");
     }

@@ -308,7 +308,10 @@ int slice_exponent(const Factorisation& factorisation, const std::vector<Plan>& 
         // The level whose voxels are nearest to a pixel, by ratio.
         const double level = std::round(std::log2(fewest_voxels_per_pixel(factorisation, plans)));
         if (level > 0) {
-            return static_cast<int>(std::min<double>(level, volume::coarsest_level(factorisation.lattice.n)));
+            const int coarsest = volume::coarsest_level(factorisation.lattice.n);
+            return static_cast<int>(std::min<double>(level, sampling.classify == Classify::pre_integrated
+                                                                ? std::min(coarsest, volume::max_margin_level)
+                                                                : coarsest));
         }
     }
     return sampling.finer_magnified && magnified(factorisation, plans) ? -1 : sampling.slice_exponent;

@@ -50,6 +50,9 @@ Box nodes_of(const Box& box, int level) {
 
 Box nodes_kept(const Box& box, int level, const Index3& n) {
     Box nodes = nodes_of(box, level);
+    if (level > max_margin_level) {
+        return nodes;
+    }
     const Index3 last = last_nodes(n, level);
     for (std::size_t a = 0; a < 3; ++a) {
         nodes.lo[a] = std::max<std::int64_t>(nodes.lo[a] - 1, 0);

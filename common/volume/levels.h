@@ -13,6 +13,9 @@
 namespace shearwater::volume {
 
 inline constexpr int max_level = 5;
+// The coarsest whose nodes are kept with a margin, as pre-integrated classification needs it: one node more
+// of a coarse level takes dozens of voxels more on every side.
+inline constexpr int max_margin_level = 2;
 
 // The coarsest that a cube of n voxels has: it has more than 32 nodes along the longest axis, or is level 0.
 int coarsest_level(const Index3& n);
@@ -28,8 +31,8 @@ Index3 last_nodes(const Index3& n, int level);
 // The nodes of a level between which the points lie that a box of voxels owns.
 Box nodes_of(const Box& box, int level);
 
-// Those and one more on every side, where the cube has one: between them lie both ends of every segment of a
-// ray, from one slice to the next, that begins in the box.
+// Those and, up to max_margin_level, one more on every side, where the cube has one: between them lie both
+// ends of every segment of a ray, from one slice to the next, that begins in the box.
 Box nodes_kept(const Box& box, int level, const Index3& n);
 
 // The nodes of the next finer level, with the given last ones, that nodes are made from.

@@ -28,9 +28,10 @@ Record row(const Flags& flags, const OnTree& tree, const deploy::Picture& pictur
         totals.push_back(seconds.total);
         renders.push_back(seconds.render);
     }
-    std::uint64_t peak = 0;
+    std::uint64_t peak = 0, peaks = 0;
     for (const deploy::ProcessMemory& process : picture.memory) {
         peak = std::max(peak, process.peak_bytes);
+        peaks += process.peak_bytes;
     }
     const Spread total = spread(std::move(totals));
     const bool papers = flags.edge == 2048 && flags.workload == "W1";
@@ -50,6 +51,7 @@ Record row(const Flags& flags, const OnTree& tree, const deploy::Picture& pictur
         .aside("samples", static_cast<double>(picture.samples))
         .number("Gsamples_per_s", static_cast<double>(picture.samples) / total.median / 1e9, 3)
         .number("MiB_each", static_cast<double>(peak) / (1U << 20U), 0)
+        .number("MiB_in_all", static_cast<double>(peaks) / (1U << 20U), 0)
         .number("paper_s", paper(paper::large_seconds), 0)
         .number("paper_MiB_each", paper(paper::large_mib_each), 0)
         .number("times_faster", paper(paper::large_seconds / total.median), 1);

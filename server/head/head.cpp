@@ -342,6 +342,7 @@ void Head::begin_frames(wire::LinkId client, Session& session, wire::Time now, E
         pb::Render render;
         if (sketch) {
             factorisation.slice_exponent = roster_.cube().sketch_level;
+            factorisation.classify = view::Classify::post;
             *render.mutable_sketch() = wire::to_wire(*sketch);
         }
         render.set_frame(++last_frame_);

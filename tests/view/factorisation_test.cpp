@@ -301,6 +301,21 @@ TEST(Factorise, TakesTwoSlicesAVoxelWhereVoxelsSpanMoreThanAPixel) {
     EXPECT_EQ(factorise(within, {100, 100}, cube, sampling(Quality::normal)).slice_exponent, -1);
 }
 
+// What lies beside a box is not kept of coarser ones.
+TEST(Factorise, PreIntegratesOnTheFinerLevels) {
+    const Lattice large{{2048, 2048, 2048}};
+    const auto far = [&](Classify classify) {
+        return factorise(camera_on({30, 20, 1e5}, large), {64, 64}, large,
+                         {.level_of_detail = true, .classify = classify});
+    };
+    EXPECT_EQ(far(Classify::post).level(), volume::max_level);
+    Factorisation f = far(Classify::pre_integrated);
+    EXPECT_EQ(f.level(), volume::max_margin_level);
+    EXPECT_TRUE(validate(f).has_value());
+    ++f.slice_exponent;
+    EXPECT_TRUE(validate(f).has_error());
+}
+
 TEST(ValidateFactorisation, RefusesWhatAPeerMayMakeUp) {
     const Factorisation good = factorise(camera_on({}, lattice), {64, 64}, lattice, {1});
     const auto fails = [&](const auto& spoil) {

@@ -49,6 +49,10 @@ TEST(Levels, KeepAMarginOfOneNodeInsideTheCube) {
     EXPECT_EQ(nodes_kept({{7, 0, 9}, {8, 17, 29}}, 0, n), (Box{{6, 0, 8}, {9, 18, 29}}));
     EXPECT_EQ(nodes_kept({{7, 0, 9}, {98, 17, 29}}, 1, n), (Box{{2, 0, 3}, {50, 10, 15}}));
     EXPECT_EQ(nodes_kept(whole(n), 0, n), whole(n));
+    const Box inner{{64, 64, 64}, {128, 128, 128}};
+    EXPECT_EQ(nodes_kept(inner, max_margin_level, {500, 500, 500}), (Box{{15, 15, 15}, {33, 33, 33}}));
+    EXPECT_EQ(nodes_kept(inner, max_margin_level + 1, {500, 500, 500}),
+              nodes_of(inner, max_margin_level + 1));
 }
 
 TEST(Levels, AreMadeFromWhatLiesAboutTheBox) {
@@ -68,7 +72,7 @@ TEST(Levels, AreMadeFromWhatLiesAboutTheBox) {
         }
     }
     EXPECT_EQ(nodes_to_make(whole(n), n).front(), whole(n));
-    EXPECT_EQ(nodes_to_make({{0, 0, 0}, {128, 199, 128}}, n).front().hi, (Index3{143, 199, 128}));
+    EXPECT_EQ(nodes_to_make({{0, 0, 0}, {128, 199, 128}}, n).front().hi, (Index3{135, 199, 128}));
 }
 
 }  // namespace
