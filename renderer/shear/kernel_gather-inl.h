@@ -45,6 +45,15 @@ HWY_INLINE void lay_columns(const Slab<Code>& slab, const Slice<Code>& slice, in
     std::fill_n(&columns.fractions[static_cast<std::size_t>(i1 - i0)], room_for_a_vector, 0.0F);
 }
 
+// A vector of pixels' values from the `at`-th on, of those of a row of voxels.
+template <class D>
+HWY_INLINE hn::Vec<D> interpolate_along(D d, const float* values, const Columns& columns, std::size_t at) {
+    const auto cell = hn::Load(hn::RebindToSigned<D>(), &columns.cells[at]);
+    const auto left = hn::GatherIndex(d, values, cell);
+    const auto right = hn::GatherIndex(d, values + 1, cell);
+    return hn::MulAdd(hn::Load(d, &columns.fractions[at]), hn::Sub(right, left), left);
+}
+
 template <class D, class Code>
 HWY_INLINE hn::Vec<D> load_codes(D d, const Code* codes) {
     const hn::RebindToSigned<D> di;
@@ -114,13 +123,8 @@ HWY_INLINE std::uint64_t composite_row(const Slab<Code>& slab, const Slice<Code>
             continue;
         }
         taken += hn::CountTrue(d, live);
-        const auto cell = hn::Load(di, &columns.cells[at]);
-        const auto fraction = hn::Load(d, &columns.fractions[at]);
-        const auto along = [&](const float* values) HWY_ATTR {
-            const auto left = hn::GatherIndex(d, values, cell);
-            const auto right = hn::GatherIndex(d, values + 1, cell);
-            return hn::MulAdd(fraction, hn::Sub(right, left), left);
-        };
+        const auto along = [&](const float* values)
+                               HWY_ATTR { return interpolate_along(d, values, columns, at); };
         auto code = along(row.codes.data());
         if constexpr (blanks) {
             const auto valid = along(row.valid.data());

@@ -45,13 +45,8 @@ HWY_INLINE void find_nodes(const Slab<Code>& slab, const Slice<Code>& slice, int
     int n = 0;
     for (; n < width; n += static_cast<int>(hn::Lanes(d))) {
         const auto at = static_cast<std::size_t>(n);
-        const auto cell = hn::Load(di, &columns.cells[at]);
-        const auto fraction = hn::Load(d, &columns.fractions[at]);
-        const auto along = [&](const float* values) HWY_ATTR {
-            const auto left = hn::GatherIndex(d, values, cell);
-            const auto right = hn::GatherIndex(d, values + 1, cell);
-            return hn::MulAdd(fraction, hn::Sub(right, left), left);
-        };
+        const auto along = [&](const float* values)
+                               HWY_ATTR { return interpolate_along(d, values, columns, at); };
         const auto node_of = [&](hn::Vec<decltype(d)> code) HWY_ATTR {
             return hn::ConvertTo(di, hn::MulAdd(code, hn::Set(d, table.nodes_per_code()), hn::Set(d, 0.5F)));
         };

@@ -12,8 +12,12 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/composited_rays.h"
+
 namespace shearwater::shear {
 namespace {
+
+using Outcome = test::CompositedRays;
 
 view::TransferFunction coloured() {
     return {.opacity_pins = {view::Ramp{0.2, 0, 1, 0.9}, view::Blank{0.5, 0.6}},
@@ -171,28 +175,10 @@ struct Trial {
     }
 
     // The rays after it, by the kernel or by its definition.
-    struct Outcome {
-        std::vector<float> r, g, b, a;
-        std::uint64_t taken;
-    };
     template <class Composite>
     Outcome run(const OpacityTable& table, const Composite& composite) {
-        std::mt19937 start(7);
-        Outcome outcome;
-        for (std::vector<float>* const plane : {&outcome.r, &outcome.g, &outcome.b, &outcome.a}) {
-            plane->resize(lengths.size());
-        }
-        for (std::size_t n = 0; n < lengths.size(); ++n) {
-            outcome.a[n] = start() % 5 == 4 ? 1 : 0.1F * static_cast<float>(start() % 4);
-            outcome.g[n] = 0.5F * outcome.a[n];
-        }
-        outcome.taken = composite(slab, table,
-                                  Rays{.r = outcome.r.data(),
-                                       .g = outcome.g.data(),
-                                       .b = outcome.b.data(),
-                                       .a = outcome.a.data(),
-                                       .stride = ray_stride});
-        return outcome;
+        return test::composited_rays(lengths.size(), ray_stride,
+                                     [&](const Rays& rays) { return composite(slab, table, rays); });
     }
 
     void expect_definition(const OpacityTable& table) {
