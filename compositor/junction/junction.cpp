@@ -24,6 +24,9 @@ Effects Junction::handle(const wire::NetEvent& event, wire::Time now) {
         case node::Member::News::parent_up:
             send_histogram(Counted::sketches, effects);
             send_histogram(Counted::voxels, effects);
+            for (const pb::NeedVoxels& need : branch_.unanswered()) {
+                member_.tell_parent(wire::message(need), effects.net);
+            }
             break;
         case node::Member::News::parent_down:
             branch_.cancel_all(effects.net);

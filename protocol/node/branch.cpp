@@ -175,7 +175,7 @@ void Branch::link_down(wire::LinkId link) {
     }
     const std::size_t index = index_of(*child);
     children_[index].link.reset();
-    std::erase_if(voxel_routes_, [&](const auto& route) { return route.second == link; });
+    std::erase_if(voxel_routes_, [&](const auto& route) { return route.second.link == link; });
     std::vector<std::uint64_t> touched;
     for (auto& [frame, pending] : pending_) {
         if (pending.waiting.contains(index)) {
@@ -219,7 +219,7 @@ std::optional<wire::pb::NeedVoxels> Branch::receive(wire::LinkId link, const wir
                   effects);
             return std::nullopt;
         }
-        voxel_routes_.insert_or_assign(static_cast<int>(need->place()), link);
+        voxel_routes_.insert_or_assign(static_cast<int>(need->place()), VoxelRoute{link, *need});
         return *need;
     } else {
         fault(link,
@@ -310,8 +310,19 @@ void Branch::deliver_voxels(const wire::Message& voxels, std::vector<NetEffect>&
     const auto place = static_cast<int>(std::get<wire::pb::Voxels>(voxels.body).place());
     const auto route = voxel_routes_.find(place);
     if (route != voxel_routes_.end()) {
-        effects.push_back(wire::Send{route->second, voxels});
+        effects.push_back(wire::Send{route->second.link, voxels});
+        route->second.unanswered.reset();
     }
+}
+
+std::vector<wire::pb::NeedVoxels> Branch::unanswered() const {
+    std::vector<wire::pb::NeedVoxels> needs;
+    for (const auto& [place, route] : voxel_routes_) {
+        if (route.unanswered) {
+            needs.push_back(*route.unanswered);
+        }
+    }
+    return needs;
 }
 
 }  // namespace shearwater::node

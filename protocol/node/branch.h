@@ -67,6 +67,9 @@ class Branch {
     // Passes a message down to every child, or voxels to the child that asked for them.
     void tell_children(const wire::Message& message, std::vector<wire::NetEffect>& effects) const;
     void deliver_voxels(const wire::Message& voxels, std::vector<wire::NetEffect>& effects);
+    // What children have asked for and not been given: to be asked again of another parent, or of one that
+    // was not there yet.
+    std::vector<wire::pb::NeedVoxels> unanswered() const;
 
   private:
     struct Child {
@@ -109,8 +112,12 @@ class Branch {
     std::vector<Child> children_;
     std::map<std::uint64_t, Pending> pending_;
     std::vector<MergeJob> complete_;
-    std::map<int, wire::LinkId> voxel_routes_;  // by the asking renderer's place
-    std::array<bool, 2> histogram_news_{};      // by Counted
+    struct VoxelRoute {
+        wire::LinkId link;
+        std::optional<wire::pb::NeedVoxels> unanswered;
+    };
+    std::map<int, VoxelRoute> voxel_routes_;  // by the asking renderer's place
+    std::array<bool, 2> histogram_news_{};    // by Counted
 };
 
 }  // namespace shearwater::node

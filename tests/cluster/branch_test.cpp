@@ -358,11 +358,15 @@ TEST_F(BranchTest, VoxelsFindTheirWayBack) {
     const auto up = branch_.receive(left_, wire::message(need), effects_);
     ASSERT_TRUE(up);
     EXPECT_EQ(up->place(), 12U);
+    // Until then they can be asked for again: who is asked may not be there yet.
+    ASSERT_EQ(branch_.unanswered().size(), 1U);
+    EXPECT_EQ(branch_.unanswered()[0].request(), 5U);
     pb::Voxels voxels;
     voxels.set_place(12);
     branch_.deliver_voxels(wire::message(voxels), effects_);
     ASSERT_EQ(of<wire::Send>(effects_).size(), 1U);
     EXPECT_EQ(of<wire::Send>(effects_)[0].link, left_);
+    EXPECT_TRUE(branch_.unanswered().empty());
     // Not what another child holds.
     *need.mutable_box() = wire::to_wire(volume::Box{{5, 0, 0}, {7, 2, 2}});
     EXPECT_FALSE(branch_.receive(left_, wire::message(need), effects_));

@@ -185,11 +185,11 @@ void storm(const Storm& storm) {
 }
 
 TEST(Simulation, AnyStormOfDeathsEndsWhole) {
-    storm({.seeds = 40});
+    storm({.seeds = 24});
 }
 
 TEST(Simulation, AnyStormOfDeathsWhileSketchesAreSeenEndsWhole) {
-    storm({.seeds = 20, .n = large_cube, .sketch_level = 1});
+    storm({.seeds = 12, .n = large_cube, .sketch_level = 1});
 }
 
 // Of pictures in several bands: a daemon dies between two of a frame's.
@@ -199,7 +199,7 @@ TEST(Simulation, AnyStormOfDeathsBetweenBandsEndsWhole) {
     const auto factorisation = view::factorise(view.camera, view.size, {.n = cube, .spacing = {1, 1, 1}},
                                                view::sampling(view.quality));
     ASSERT_GE(view::bands_of(factorisation).size(), 3U);
-    storm({.seeds = 16, .size = size});
+    storm({.seeds = 10, .size = size});
 }
 
 }  // namespace
