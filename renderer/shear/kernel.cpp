@@ -41,17 +41,6 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace shearwater::shear {
 
-void fetch(const Ahead& ahead) {
-    for (int plane = 0; plane < ahead.planes; ++plane) {
-        for (int row = 0; row < ahead.rows; ++row) {
-            for (int line = 0; line < ahead.lines; ++line) {
-                hwy::Prefetch(ahead.first + plane * ahead.plane_stride + row * ahead.row_stride +
-                              line * cache_line);
-            }
-        }
-    }
-}
-
 HWY_EXPORT(composite_8);
 HWY_EXPORT(composite_16);
 

@@ -40,8 +40,6 @@ struct Ahead {
     int count() const { return lines * rows * planes; }
 };
 inline constexpr int cache_line = 64;
-// Begins to fetch all of it.
-void fetch(const Ahead& ahead);
 
 // Slices that follow one another front to back.
 template <class Code>

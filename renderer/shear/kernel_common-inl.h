@@ -7,9 +7,9 @@
 #define SHEARWATER_SHEAR_KERNEL_COMMON_INL_H
 #endif
 
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
+#include "renderer/shear/fetching.h"
 #include "renderer/shear/kernel.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -92,33 +92,6 @@ HWY_INLINE CellPlace row_place(const Slab<Code>& slab, const Slice<Code>& slice,
     // A row on the last row of voxels belongs to the last cell.
     return place.cell < slab.slow_cells ? place : CellPlace{place.cell - 1, place.step + cell_steps};
 }
-
-// Fetches memory a little at a time, line by line.
-class Fetching {
-  public:
-    // All of it in about so many steps.
-    Fetching(const Ahead& ahead, int steps)
-        : ahead_(ahead), each_(steps > 0 ? (ahead.count() + steps - 1) / steps : 0), left_(ahead.count()) {}
-
-    HWY_INLINE void step() {
-        for (int n = 0; n < each_ && left_ > 0; ++n, --left_) {
-            hwy::Prefetch(ahead_.first + plane_ * ahead_.plane_stride + row_ * ahead_.row_stride +
-                          line_ * cache_line);
-            if (++line_ == ahead_.lines) {
-                line_ = 0;
-                if (++row_ == ahead_.rows) {
-                    row_ = 0;
-                    ++plane_;
-                }
-            }
-        }
-    }
-
-  private:
-    Ahead ahead_;
-    int each_, left_;
-    int line_ = 0, row_ = 0, plane_ = 0;
-};
 
 // The pixels that some slice of a slab wants.
 template <class Code>

@@ -5,6 +5,8 @@
 #include <functional>
 #include <utility>
 
+#include "renderer/shear/fetching.h"
+
 namespace shearwater::shear {
 
 using view::PixelRange;
@@ -201,7 +203,7 @@ void Tile<Code>::render_octants(Slices slices, std::span<const std::int64_t> num
         std::swap(runs_, next_runs_);
     }
     for (const Piece& piece : pieces_) {
-        fetch(voxels_.ahead(region_of(piece.run.along, piece.rows, numbers)));
+        Fetching(voxels_.ahead(region_of(piece.run.along, piece.rows, numbers)), 1).step();
     }
     for (const Piece& piece : pieces_) {
         render_piece(slices, numbers, piece, fast, slow);
