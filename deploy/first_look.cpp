@@ -3,6 +3,7 @@
 #include <chrono>
 #include <optional>
 
+#include "common/base/stopwatch.h"
 #include "deploy/local_tree.h"
 #include "protocol/daemon/runtime.h"
 #include "protocol/wire/convert.h"
@@ -54,8 +55,7 @@ class Onlooker {
             effects.emplace_back(wire::Send{server, wire::message(wire::to_wire(view))});
             asked_ = true;
         } else if (const auto* frame = std::get_if<pb::Frame>(&body)) {
-            const double elapsed =
-                std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+            const double elapsed = base::seconds_since(start_);
             if (seen_.first == 0) {
                 seen_.first = elapsed;
                 seen_.sketch = frame->sketch();

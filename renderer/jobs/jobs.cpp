@@ -6,20 +6,13 @@
 
 #include "common/base/check.h"
 #include "common/base/memory.h"
+#include "common/base/stopwatch.h"
 #include "common/cube/open.h"
 #include "common/volume/statistics.h"
 #include "protocol/node/merge.h"
 #include "renderer/shear/render.h"
 
 namespace shearwater::jobs {
-
-namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-}  // namespace
 
 Jobs::Jobs(int threads, std::function<void(leaf::JobEvent)> tell)
     : tell_(std::move(tell)), loaders_(threads), drawers_(threads) {}
@@ -184,7 +177,7 @@ void Jobs::draw(const leaf::Draw& job, const std::stop_token& stop) {
         const auto coding_begin = std::chrono::steady_clock::now();
         wire::Message message =
             wire::windows_message(job.frame, drawn.bands, image::encode({&drawn.window, 1}));
-        coding += seconds_since(coding_begin);
+        coding += base::seconds_since(coding_begin);
         if (drawn.bands == bands.size()) {
             last = std::move(message);  // what the frame cost goes with it
         } else {
@@ -200,7 +193,7 @@ void Jobs::draw(const leaf::Draw& job, const std::stop_token& stop) {
     }
     node::Account account;
     // One of the threads codes at a time, and the others render.
-    account.stats.set_render_seconds(seconds_since(begin) - coding / drawers_.threads());
+    account.stats.set_render_seconds(base::seconds_since(begin) - coding / drawers_.threads());
     account.stats.set_composite_seconds(coding);
     account.stats.set_samples(stats.samples);
     account.stats.set_bricks_total(stats.bricks_total);

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "common/base/stopwatch.h"
 #include "common/image/warp.h"
 #include "protocol/wire/convert.h"
 #include "protocol/wire/picture.h"
@@ -11,14 +12,6 @@
 namespace shearwater::service {
 
 namespace pb = wire::pb;
-
-namespace {
-
-double seconds_since(wire::Time begin) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-}  // namespace
 
 Service::Service(int threads, std::unique_ptr<volume::VoxelSource> cube,
                  std::function<void(head::JobEvent)> tell)
@@ -33,32 +26,18 @@ Service::~Service() {
 
 void Service::perform(head::Job job) {
     if (auto* band = std::get_if<head::Lay>(&job)) {
-        boost::asio::post(frames_, [this, work = std::move(*band)]() mutable { lay(work.merge); });
+        boost::asio::post(frames_, [this, work = std::move(*band)]() mutable { canvases_.lay(work.merge); });
     } else if (auto* frame = std::get_if<head::Finish>(&job)) {
         boost::asio::post(frames_, [this, work = std::move(*frame)]() mutable { finish(work); });
     } else if (auto* given_up = std::get_if<head::GiveUp>(&job)) {
-        boost::asio::post(frames_, [this, number = given_up->frame] { done_with(number); });
+        boost::asio::post(frames_, [this, number = given_up->frame] { canvases_.done_with(number); });
     } else if (auto* read = std::get_if<head::ReadVoxels>(&job)) {
         boost::asio::post(reading_, [this, work = std::move(*read)] { read_voxels(work); });
     }
 }
 
-image::Canvas& Service::lay(node::MergeJob& merge) {
-    const auto [canvas, is_new] = canvases_.try_emplace(merge.frame->number);
-    if (is_new) {
-        canvas->second = std::exchange(spare_, {});
-        canvas->second.begin(merge.frame->factorisation);
-    }
-    node::merge_into(canvas->second, merge);
-    return canvas->second;
-}
-
-void Service::done_with(std::uint64_t frame) {
-    spare_ = std::move(canvases_.extract(frame).mapped());
-}
-
 void Service::finish(head::Finish& job) {
-    const image::Canvas& canvas = lay(job.merge);
+    const image::Canvas& canvas = canvases_.lay(job.merge);
     const node::MergedFrame& merged = *job.merge.frame;
     pb::Frame frame;
     frame.set_number(merged.number);
@@ -69,13 +48,13 @@ void Service::finish(head::Finish& job) {
     const auto picture = image::warp(merged.factorisation, canvas.windows(), job.view.camera, job.view.size,
                                      job.view.tf.background, workers_);
     const wire::Time encode_begin = std::chrono::steady_clock::now();
-    done_with(merged.number);
+    canvases_.done_with(merged.number);
     wire::Message message = wire::frame_message(std::move(frame), picture, job.view.deflate, workers_);
     pb::FrameStats* const stats = std::get<pb::Frame>(message.body).mutable_stats();
     *stats->mutable_leaves() = job.merge.account.stats;
     stats->set_warp_seconds(std::chrono::duration<double>(encode_begin - warp_begin).count());
-    stats->set_encode_seconds(seconds_since(encode_begin));
-    stats->set_total_seconds(seconds_since(job.asked));
+    stats->set_encode_seconds(base::seconds_since(encode_begin));
+    stats->set_total_seconds(base::seconds_since(job.asked));
     tell_(head::Finished{merged.number, std::move(message)});
 }
 

@@ -4,12 +4,11 @@
 
 #include <boost/asio/thread_pool.hpp>
 #include <functional>
-#include <map>
 #include <memory>
 
 #include "common/base/workers.h"
-#include "common/image/canvas.h"
 #include "common/volume/source.h"
+#include "server/head/canvases.h"
 #include "server/head/head.h"
 
 namespace shearwater::service {
@@ -25,17 +24,13 @@ class Service {
     void perform(head::Job job);
 
   private:
-    image::Canvas& lay(node::MergeJob& merge);
-    void done_with(std::uint64_t frame);
     void finish(head::Finish& job);
     void read_voxels(const head::ReadVoxels& job);
 
     std::unique_ptr<volume::VoxelSource> cube_;  // touched by the reading thread only
     std::function<void(head::JobEvent)> tell_;
     base::Workers workers_;
-    // Touched by the frames' thread only.
-    std::map<std::uint64_t, image::Canvas> canvases_;  // by frame
-    image::Canvas spare_;                              // for the memory it has
+    head::Canvases canvases_;  // touched by the frames' thread only
     boost::asio::thread_pool frames_{1};
     boost::asio::thread_pool reading_{1};
 };

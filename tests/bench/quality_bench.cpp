@@ -17,6 +17,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/base/stopwatch.h"
 #include "common/fits/cube.h"
 #include "common/volume/statistics.h"
 #include "tests/support/reference_raycaster.h"
@@ -71,8 +72,7 @@ double seconds_of(const Work& work) {
     for (int i = 0; i < times; ++i) {
         const auto begin = std::chrono::steady_clock::now();
         work();
-        least =
-            std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+        least = std::min(least, base::seconds_since(begin));
     }
     return least;
 }

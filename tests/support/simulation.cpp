@@ -279,27 +279,18 @@ void Simulation::perform(head::Effects effects) {
     for (head::Job& job : effects.jobs) {
         fabric_.later(server_node, [this, job = std::move(job)]() mutable {
             if (auto* lay = std::get_if<head::Lay>(&job)) {
-                canvas_of(lay->merge);
+                canvases_.lay(lay->merge);
             } else if (auto* finish = std::get_if<head::Finish>(&job)) {
                 this->finish(*finish);
             } else if (const auto* given_up = std::get_if<head::GiveUp>(&job)) {
-                EXPECT_EQ(canvases_.erase(given_up->frame), 1U) << "what was never begun is given up";
+                EXPECT_TRUE(canvases_.done_with(given_up->frame)) << "what was never begun is given up";
             }
         });
     }
 }
 
-image::Canvas& Simulation::canvas_of(node::MergeJob& job) {
-    const auto [canvas, is_new] = canvases_.try_emplace(job.frame->number);
-    if (is_new) {
-        canvas->second.begin(job.frame->factorisation);
-    }
-    node::merge_into(canvas->second, job);
-    return canvas->second;
-}
-
 void Simulation::finish(head::Finish& job) {
-    const image::Canvas& canvas = canvas_of(job.merge);
+    const image::Canvas& canvas = canvases_.lay(job.merge);
     const node::MergedFrame& merged = *job.merge.frame;
     pb::Frame frame;
     frame.set_number(merged.number);
@@ -308,7 +299,7 @@ void Simulation::finish(head::Finish& job) {
     node::put(job.merge.account.missing, *frame.mutable_missing());
     const auto picture = image::warp(merged.factorisation, canvas.windows(), job.view.camera, job.view.size,
                                      job.view.tf.background, workers_);
-    canvases_.erase(merged.number);
+    canvases_.done_with(merged.number);
     perform(head_.handle(
         head::Finished{merged.number, wire::frame_message(std::move(frame), picture, false, workers_)},
         fabric_.now()));

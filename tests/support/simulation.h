@@ -16,6 +16,7 @@
 #include "compositor/junction/junction.h"
 #include "renderer/leaf/leaf.h"
 #include "renderer/shear/brick_volume.h"
+#include "server/head/canvases.h"
 #include "server/head/head.h"
 
 namespace shearwater::support {
@@ -100,7 +101,6 @@ class Simulation {
     struct Compositor;
 
     void perform(head::Effects effects);
-    image::Canvas& canvas_of(node::MergeJob& job);
     void finish(head::Finish& job);
     void on_client_event(const wire::NetEvent& event);
 
@@ -111,7 +111,7 @@ class Simulation {
     volume::VoxelSource& source_;
     base::Workers workers_{1};
     head::Head head_;
-    std::map<std::uint64_t, image::Canvas> canvases_;
+    head::Canvases canvases_;
     std::map<tree::Place, std::unique_ptr<Daemon>> daemons_;
     std::uint64_t revision_ = 0;
     std::optional<wire::Message> frame_, sketch_;
