@@ -1,12 +1,9 @@
 #include "common/base/huge_array.h"
 
 #include <sys/mman.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <new>
-
-#include "common/base/check.h"
 
 namespace shearwater::base {
 
@@ -25,15 +22,6 @@ HugeBytes::HugeBytes(std::size_t bytes) : size_(bytes) {
 
 HugeBytes::~HugeBytes() {
     std::free(data_);
-}
-
-void HugeBytes::shrink(std::size_t bytes) {
-    check(0 < bytes && bytes <= size_, "memory shrinks to a part of it");
-    void* const shrunk = std::realloc(data_, bytes);
-    if (shrunk != nullptr) {
-        data_ = shrunk;
-    }
-    size_ = bytes;
 }
 
 #else
@@ -55,16 +43,6 @@ HugeBytes::~HugeBytes() {
     if (data_ != nullptr) {
         munmap(data_, size_);
     }
-}
-
-void HugeBytes::shrink(std::size_t bytes) {
-    check(0 < bytes && bytes <= size_, "memory shrinks to a part of it");
-    const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-    const auto pages = [page](std::size_t size) { return (size + page - 1) / page * page; };
-    if (pages(bytes) < pages(size_)) {
-        munmap(static_cast<std::byte*>(data_) + pages(bytes), pages(size_) - pages(bytes));
-    }
-    size_ = bytes;
 }
 
 #endif

@@ -23,9 +23,6 @@ class HugeBytes {
     HugeBytes(const HugeBytes&) = delete;
     HugeBytes& operator=(const HugeBytes&) = delete;
 
-    // Gives back what is behind the first `bytes`.
-    void shrink(std::size_t bytes);
-
     void* data() const { return data_; }
     std::size_t size() const { return size_; }
 

@@ -1,15 +1,13 @@
 #include "renderer/shear/brick_volume.h"
 
 #include <algorithm>
-#include <atomic>
-#include <mutex>
 #include <new>
-#include <thread>
+#include <utility>
 
 #include "common/base/check.h"
 #include "common/volume/levels.h"
-#include "common/volume/quantiser.h"
-#include "renderer/shear/coarsen.h"
+#include "renderer/shear/level_builder.h"
+#include "renderer/shear/plane_reader.h"
 #include "renderer/shear/survey.h"
 
 namespace shearwater::shear {
@@ -35,26 +33,6 @@ base::Status check(const Box& box, const Index3& n) {
     return {};
 }
 
-// The planes lo to hi of a box cut into chunks of at most `room` voxels (one at the least): whole planes
-// where they fit, else rows, else pieces of a row. Every voxel is in one of them.
-std::vector<Box> chunks_of(const Box& box, std::int64_t room) {
-    const std::int64_t row = box.planes(0);
-    const std::int64_t length = std::clamp<std::int64_t>(room, 1, row);
-    const std::int64_t rows = std::clamp<std::int64_t>(room / row, 1, box.planes(1));
-    const std::int64_t planes = std::clamp<std::int64_t>(room / (row * box.planes(1)), 1, box.planes(2));
-    std::vector<Box> chunks;
-    for (std::int64_t z = box.lo[2]; z <= box.hi[2]; z += planes) {
-        for (std::int64_t y = box.lo[1]; y <= box.hi[1]; y += rows) {
-            for (std::int64_t x = box.lo[0]; x <= box.hi[0]; x += length) {
-                chunks.push_back({{x, y, z},
-                                  {std::min(x + length - 1, box.hi[0]), std::min(y + rows - 1, box.hi[1]),
-                                   std::min(z + planes - 1, box.hi[2])}});
-            }
-        }
-    }
-    return chunks;
-}
-
 }  // namespace
 
 base::Result<BrickVolume> BrickVolume::load(volume::VoxelSource& source, const Box& box, const Index3& n,
@@ -69,15 +47,26 @@ base::Result<BrickVolume> BrickVolume::load(volume::VoxelSource& source, const B
     volume.n_ = n;
     volume.mapping_ = mapping;
     try {
-        CodeVolume voxels(volume::nodes_to_make(box, n).front(), mapping.bits);
-        const auto filled =
-            mapping.bits == 8
-                ? fill<std::uint8_t>(voxels, mapping, source, workers, progress, stop, slab_bytes)
-                : fill<std::uint16_t>(voxels, mapping, source, workers, progress, stop, slab_bytes);
-        if (!filled) {
-            return filled.error();
+        PlaneReader reader(source, mapping, workers, slab_bytes);
+        const Box all = volume::nodes_to_make(box, n).front();
+        LevelBuilder builder(box, n, mapping.bits, reader.planes_at_once(all));
+        while (const auto planes = builder.next()) {
+            const auto share = [&](double of_these) {
+                const auto count = static_cast<double>(planes->planes(2));
+                progress((static_cast<double>(planes->lo[2] - all.lo[2]) + count * of_these) /
+                         static_cast<double>(all.planes(2)));
+            };
+            const auto read =
+                reader.read(*planes, builder.window(), progress ? volume::Progress(share) : nullptr, stop);
+            if (!read) {
+                return read.error();
+            }
+            if (!builder.rise(workers, stop)) {
+                return refuse(base::Code::cancelled, box, "stopped").error();
+            }
         }
-        if (!volume.build(std::move(voxels), workers, stop)) {
+        volume.levels_ = std::move(builder).take_levels();
+        if (!volume.survey(workers, stop)) {
             return refuse(base::Code::cancelled, box, "stopped").error();
         }
         return volume;
@@ -86,107 +75,9 @@ base::Result<BrickVolume> BrickVolume::load(volume::VoxelSource& source, const B
     }
 }
 
-namespace {
-
-// Quantises a chunk's voxels to where they lie in a box's codes.
-template <class Code, class Offset>
-void quantise(const volume::Quantiser& quantiser, std::span<const float> values, const Box& chunk,
-              std::span<Code> codes, const Offset& offset) {
-    const auto length = static_cast<std::size_t>(chunk.planes(0));
-    for (std::int64_t z = chunk.lo[2]; z <= chunk.hi[2]; ++z) {
-        for (std::int64_t y = chunk.lo[1]; y <= chunk.hi[1]; ++y) {
-            quantiser.codes(values.first(length), codes.subspan(offset({chunk.lo[0], y, z}), length));
-            values = values.subspan(length);
-        }
-    }
-}
-
-// A chunk that stays in the processor's caches between reading and quantising.
-constexpr std::size_t cached_bytes = std::size_t{1} << 20;
-
-// Reads chunk after chunk and calls use(chunk, values) on each; by all workers at once where the source lets
-// them. Told stop, or at the first error, begins no more.
-template <class Use>
-base::Status read_chunks(volume::VoxelSource& source, const Box& box, std::size_t slab_bytes,
-                         base::Workers& workers, const volume::Progress& progress,
-                         const std::stop_token& stop, const Use& use) {
-    const auto threads = static_cast<std::size_t>(source.concurrent() ? workers.threads() : 1);
-    const std::size_t bytes = threads > 1 ? std::min(slab_bytes / threads, cached_bytes) : slab_bytes;
-    const auto chunks = chunks_of(box, static_cast<std::int64_t>(bytes / sizeof(float)));
-    const auto caller = std::this_thread::get_id();
-    std::atomic<std::size_t> next{0}, done{0};
-    std::mutex mutex;
-    base::Status outcome;
-    const auto work = [&](std::int64_t) {
-        std::vector<float> values(static_cast<std::size_t>(chunks.front().voxels()));
-        for (std::size_t i = next++; i < chunks.size() && !stop.stop_requested(); i = next++) {
-            const std::span<float> part(values.data(), static_cast<std::size_t>(chunks[i].voxels()));
-            if (base::Status read = source.read(chunks[i], part); !read) {
-                next = chunks.size();
-                const std::lock_guard lock(mutex);
-                outcome = std::move(read);
-                return;
-            }
-            use(chunks[i], part);
-            const std::size_t ready = ++done;
-            if (progress && std::this_thread::get_id() == caller) {
-                progress(static_cast<double>(ready) / static_cast<double>(chunks.size()));
-            }
-        }
-    };
-    if (threads > 1) {
-        workers.for_each(static_cast<std::int64_t>(threads), work);
-    } else {
-        work(0);
-    }
-    if (outcome && done < chunks.size()) {
-        return refuse(base::Code::cancelled, box, "stopped");
-    }
-    return outcome;
-}
-
-}  // namespace
-
-template <class Code>
-base::Status BrickVolume::fill(CodeVolume& voxels, const volume::Mapping& mapping,
-                               volume::VoxelSource& source, base::Workers& workers,
-                               const volume::Progress& progress, const std::stop_token& stop,
-                               std::size_t slab_bytes) {
-    const volume::Quantiser quantiser(mapping);
-    const std::span<Code> codes = voxels.codes<Code>();
-    const auto place = [&](const Index3& p) { return voxels.offset(p); };
-    const bool alone = !source.concurrent();
-    return read_chunks(source, voxels.box(), slab_bytes, workers, progress, stop,
-                       [&](const Box& chunk, std::span<const float> values) {
-                           if (!alone) {
-                               quantise<Code>(quantiser, values, chunk, codes, place);
-                               return;
-                           }
-                           // The reading thread hands out what it has read, plane by plane.
-                           const auto plane = static_cast<std::size_t>(chunk.planes(0) * chunk.planes(1));
-                           workers.for_each(chunk.planes(2), [&](std::int64_t z) {
-                               Box slice = chunk;
-                               slice.lo[2] = slice.hi[2] = chunk.lo[2] + z;
-                               quantise<Code>(quantiser,
-                                              values.subspan(static_cast<std::size_t>(z) * plane, plane),
-                                              slice, codes, place);
-                           });
-                       });
-}
-
-bool BrickVolume::build(CodeVolume voxels, base::Workers& workers, const std::stop_token& stop) {
-    const std::vector<Box> boxes = volume::nodes_to_make(box_, n_);
-    levels_.push_back(std::move(voxels));
-    for (std::size_t level = 0; level < boxes.size(); ++level) {
-        const int number = static_cast<int>(level);
-        if (level + 1 < boxes.size()) {
-            levels_.emplace_back(boxes[level + 1], mapping_.bits);
-            if (!coarsen(levels_[level], levels_[level + 1], number + 1, n_, workers, stop)) {
-                return false;
-            }
-        }
-        if (!levels_[level].crop(volume::nodes_kept(box_, number, n_), stop) ||
-            !levels_[level].survey(volume::nodes_of(box_, number), workers, stop)) {
+bool BrickVolume::survey(base::Workers& workers, const std::stop_token& stop) {
+    for (std::size_t level = 0; level < levels_.size(); ++level) {
+        if (!levels_[level].survey(volume::nodes_of(box_, static_cast<int>(level)), workers, stop)) {
             return false;
         }
     }

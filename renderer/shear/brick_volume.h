@@ -19,8 +19,8 @@ class BrickVolume {
     static constexpr std::int64_t edge = 32;
 
     // Reads the planes of `box` from a source, and those beyond that its coarser levels are made from
-    // (volume::nodes_to_make), slab by slab, and quantises them in parallel. Peak memory is the codes of what
-    // is read, its levels and `slab_bytes` of floats. Cancelled between slabs, or between planes of a level.
+    // (volume::nodes_to_make), slab by slab, and quantises them in parallel. Peak memory is what it holds at
+    // last, the codes of a slab, and `slab_bytes` of floats. Cancelled between parts of a slab.
     static base::Result<BrickVolume> load(volume::VoxelSource& source, const volume::Box& box,
                                           const volume::Index3& n, const volume::Mapping& mapping,
                                           base::Workers& workers, const volume::Progress& progress = {},
@@ -46,12 +46,8 @@ class BrickVolume {
     std::span<const CodeRange> reaches() const { return reaches_; }
 
   private:
-    template <class Code>
-    static base::Status fill(CodeVolume& voxels, const volume::Mapping& mapping, volume::VoxelSource& source,
-                             base::Workers& workers, const volume::Progress& progress,
-                             const std::stop_token& stop, std::size_t slab_bytes);
-    // From all voxels read; false if stopped before.
-    bool build(CodeVolume voxels, base::Workers& workers, const std::stop_token& stop);
+    // Finds out what its levels hold; false if stopped before.
+    bool survey(base::Workers& workers, const std::stop_token& stop);
     // Fills in the bricks from the micro-bricks of a level.
     void summarise(int level);
 

@@ -12,19 +12,21 @@ namespace shearwater::shear {
 
 namespace {
 
+using volume::Box;
 using volume::Index3;
 
 // Makes rows of a coarser level.
 template <class Code>
 class Coarsener {
   public:
-    // `last` is the finer level's last node in the cube.
-    Coarsener(const CodeVolume& fine, CodeVolume& coarse, const Index3& last)
+    // Of some nodes; `last` is the finer level's last one in the cube.
+    Coarsener(const CodeVolume& fine, CodeVolume& coarse, const Box& nodes, const Index3& last)
         : fine_(fine),
           coarse_(coarse),
+          nodes_(nodes),
           last_(last),
-          before_(2 * coarse.box().lo[0] - 1),
-          sums_(static_cast<std::size_t>(2 * coarse.box().planes(0) + 1)),
+          before_(2 * nodes.lo[0] - 1),
+          sums_(static_cast<std::size_t>(2 * nodes.planes(0) + 1)),
           weights_(sums_.size()) {}
 
     void make_row(std::int64_t y, std::int64_t z) {
@@ -38,7 +40,7 @@ class Coarsener {
             }
         }
         repeat_ends();
-        Code* const to = &coarse_.codes<Code>()[coarse_.offset({coarse_.box().lo[0], y, z})];
+        Code* const to = &coarse_.codes<Code>()[coarse_.offset({nodes_.lo[0], y, z})];
         for (std::size_t i = 0; 2 * i + 2 < sums_.size(); ++i) {
             to[i] = mean(tent(sums_, 2 * i), tent(weights_, 2 * i));
         }
@@ -51,7 +53,7 @@ class Coarsener {
 
     // The finer nodes of the cube that the coarser row is made from.
     std::int64_t first_x() const { return std::max<std::int64_t>(before_, 0); }
-    std::int64_t last_x() const { return std::min(2 * coarse_.box().hi[0] + 1, last_[0]); }
+    std::int64_t last_x() const { return std::min(2 * nodes_.hi[0] + 1, last_[0]); }
 
     void add_row(std::int64_t y, std::int64_t z, std::uint16_t weight) {
         const Code* const row = &fine_.codes<Code>()[fine_.offset({first_x(), y, z})];
@@ -89,6 +91,7 @@ class Coarsener {
 
     const CodeVolume& fine_;
     CodeVolume& coarse_;
+    Box nodes_;
     Index3 last_;
     std::int64_t before_;  // the finer node that sums_ begin with, perhaps outside the cube
     std::vector<Sum> sums_;
@@ -96,14 +99,19 @@ class Coarsener {
 };
 
 template <class Code>
-bool coarsen_codes(const CodeVolume& fine, CodeVolume& coarse, const Index3& last, base::Workers& workers,
-                   const std::stop_token& stop) {
+bool coarsen_codes(const CodeVolume& fine, CodeVolume& coarse, const Box& nodes, const Index3& last,
+                   base::Workers& workers, const std::stop_token& stop) {
+    // A few planes may be all: there have to be more pieces than workers.
+    constexpr std::int64_t rows_at_once = 32;
+    const std::int64_t pieces = (nodes.planes(1) + rows_at_once - 1) / rows_at_once;
     return workers.for_each(
-        coarse.box().planes(2),
-        [&](std::int64_t plane) {
-            Coarsener<Code> coarsener(fine, coarse, last);
-            for (std::int64_t y = coarse.box().lo[1]; y <= coarse.box().hi[1]; ++y) {
-                coarsener.make_row(y, coarse.box().lo[2] + plane);
+        nodes.planes(2) * pieces,
+        [&](std::int64_t piece) {
+            Coarsener<Code> coarsener(fine, coarse, nodes, last);
+            const std::int64_t first = nodes.lo[1] + piece % pieces * rows_at_once;
+            const std::int64_t end = std::min(first + rows_at_once, nodes.hi[1] + 1);
+            for (std::int64_t y = first; y < end; ++y) {
+                coarsener.make_row(y, nodes.lo[2] + piece / pieces);
             }
         },
         stop);
@@ -111,13 +119,13 @@ bool coarsen_codes(const CodeVolume& fine, CodeVolume& coarse, const Index3& las
 
 }  // namespace
 
-bool coarsen(const CodeVolume& fine, CodeVolume& coarse, int level, const Index3& n, base::Workers& workers,
-             const std::stop_token& stop) {
+bool coarsen(const CodeVolume& fine, CodeVolume& coarse, const Box& nodes, int level, const Index3& n,
+             base::Workers& workers, const std::stop_token& stop) {
     const Index3 last = volume::last_nodes(n, level - 1);
-    base::check(fine.box().contains(volume::made_from(coarse.box(), last)),
-                "a level is made from the whole finer one");
-    return fine.bits() == 8 ? coarsen_codes<std::uint8_t>(fine, coarse, last, workers, stop)
-                            : coarsen_codes<std::uint16_t>(fine, coarse, last, workers, stop);
+    base::check(coarse.box().contains(nodes) && fine.box().contains(volume::made_from(nodes, last)),
+                "nodes are made from all of their finer ones");
+    return fine.bits() == 8 ? coarsen_codes<std::uint8_t>(fine, coarse, nodes, last, workers, stop)
+                            : coarsen_codes<std::uint16_t>(fine, coarse, nodes, last, workers, stop);
 }
 
 }  // namespace shearwater::shear

@@ -11,9 +11,9 @@
 
 namespace shearwater::shear {
 
-// Makes all nodes of a volume of level `level` of a cube of n voxels from those of the next finer one, which
-// hold what they are made_from; false if stopped before.
-bool coarsen(const CodeVolume& fine, CodeVolume& coarse, int level, const volume::Index3& n,
-             base::Workers& workers, const std::stop_token& stop);
+// Makes the nodes of a box that a volume of level `level` of a cube of n voxels holds from those of the next
+// finer one, which holds what they are made_from; false if stopped before.
+bool coarsen(const CodeVolume& fine, CodeVolume& coarse, const volume::Box& nodes, int level,
+             const volume::Index3& n, base::Workers& workers, const std::stop_token& stop);
 
 }  // namespace shearwater::shear

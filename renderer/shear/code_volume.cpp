@@ -72,32 +72,38 @@ std::size_t CodeVolume::offset(const Index3& p) const {
     return offset;
 }
 
-// In place: with strides no longer than before, every row moves towards the front, if at all.
-bool CodeVolume::crop(const Box& box, const std::stop_token& stop) {
-    base::check(box_.contains(box), "a volume is cropped to what it holds");
-    if (box == box_) {
-        return true;
-    }
-    Index3 strides = strides_of(box, bits_);
-    for (std::size_t a = 0; a < 3; ++a) {
-        strides[a] = std::min(strides[a], strides_[a]);
-    }
+bool CodeVolume::copy(const CodeVolume& from, const Box& box, base::Workers& workers,
+                      const std::stop_token& stop) {
+    base::check(box_.contains(box) && from.box_.contains(box) && from.bits_ == bits_,
+                "codes are copied that both volumes hold");
     const auto code_bytes = static_cast<std::size_t>(bits_ / 8);
+    const auto row_of = [&](const CodeVolume& volume, const Index3& p) {
+        return static_cast<std::byte*>(volume.codes_.data()) + volume.offset(p) * code_bytes;
+    };
+    constexpr std::int64_t rows_at_once = 64;
+    const std::int64_t pieces = (box.planes(1) + rows_at_once - 1) / rows_at_once;
+    return workers.for_each(
+        box.planes(2) * pieces,
+        [&](std::int64_t piece) {
+            const std::int64_t z = box.lo[2] + piece / pieces;
+            const std::int64_t first = box.lo[1] + piece % pieces * rows_at_once;
+            for (std::int64_t y = first; y < std::min(first + rows_at_once, box.hi[1] + 1); ++y) {
+                std::memcpy(row_of(*this, {box.lo[0], y, z}), row_of(from, {box.lo[0], y, z}),
+                            static_cast<std::size_t>(box.planes(0)) * code_bytes);
+            }
+        },
+        stop);
+}
+
+void CodeVolume::move_planes(std::int64_t first) {
+    base::check(first >= box_.lo[2], "planes move towards the first");
+    const std::int64_t passed = std::min(first - box_.lo[2], box_.planes(2));
+    const auto plane_bytes = static_cast<std::size_t>(strides_[2] * (bits_ / 8));
     auto* const all = static_cast<std::byte*>(codes_.data());
-    for (std::int64_t z = 0; z < box.planes(2); ++z) {
-        if (stop.stop_requested()) {
-            return false;
-        }
-        for (std::int64_t y = 0; y < box.planes(1); ++y) {
-            const std::size_t from = offset({box.lo[0], box.lo[1] + y, box.lo[2] + z}) * code_bytes;
-            const std::size_t to = static_cast<std::size_t>(z * strides[2] + y * strides[1]) * code_bytes;
-            std::memmove(all + to, all + from, static_cast<std::size_t>(box.planes(0)) * code_bytes);
-        }
-    }
-    box_ = box;
-    strides_ = strides;
-    codes_.shrink(bytes_of(box, strides, bits_));
-    return true;
+    std::memmove(all, all + static_cast<std::size_t>(passed) * plane_bytes,
+                 static_cast<std::size_t>(box_.planes(2) - passed) * plane_bytes);
+    box_.hi[2] += first - box_.lo[2];
+    box_.lo[2] = first;
 }
 
 bool CodeVolume::survey(const Box& own, base::Workers& workers, const std::stop_token& stop) {

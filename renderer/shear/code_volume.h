@@ -90,9 +90,12 @@ class CodeVolume {
     std::ptrdiff_t stride(int axis) const { return strides_[static_cast<std::size_t>(axis)]; }
     std::size_t offset(const volume::Index3& p) const;
 
-    // Lets go of what is not in a box inside its own; false if stopped before, and of no use then. To be done
-    // before the survey.
-    bool crop(const volume::Box& box, const std::stop_token& stop);
+    // Copies the codes of a box that both hold; false if stopped before.
+    bool copy(const CodeVolume& from, const volume::Box& box, base::Workers& workers,
+              const std::stop_token& stop);
+    // Moves the box along axis 2 to begin with another plane, no earlier one. What codes its planes had that
+    // it still holds they keep; the others have any.
+    void move_planes(std::int64_t first);
 
     // Finds out what the micro-bricks of the sub-volume's own nodes hold; false if stopped before.
     bool survey(const volume::Box& own, base::Workers& workers, const std::stop_token& stop);

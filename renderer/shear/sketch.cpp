@@ -7,28 +7,12 @@
 #include "common/base/check.h"
 #include "common/volume/levels.h"
 #include "common/volume/quantiser.h"
+#include "renderer/shear/plane_reader.h"
 
 namespace shearwater::shear {
 
 using volume::Box;
 using volume::Index3;
-
-namespace {
-
-template <class Code>
-void quantise(const volume::Quantiser& quantiser, std::span<const float> values, CodeVolume& nodes) {
-    const Box& box = nodes.box();
-    const auto length = static_cast<std::size_t>(box.planes(0));
-    for (std::int64_t z = box.lo[2]; z <= box.hi[2]; ++z) {
-        for (std::int64_t y = box.lo[1]; y <= box.hi[1]; ++y) {
-            quantiser.codes(values.first(length),
-                            nodes.codes<Code>().subspan(nodes.offset({box.lo[0], y, z}), length));
-            values = values.subspan(length);
-        }
-    }
-}
-
-}  // namespace
 
 Sketch::Sketch(const Box& box, const Index3& n, int level)
     : box_(box),
@@ -106,10 +90,8 @@ volume::Histogram Sketch::histogram() const {
 }
 
 BrickVolume Sketch::volume(const volume::Mapping& mapping, base::Workers& workers) const {
-    const volume::Quantiser quantiser(mapping);
     CodeVolume nodes(nodes_, mapping.bits);
-    mapping.bits == 8 ? quantise<std::uint8_t>(quantiser, values_, nodes)
-                      : quantise<std::uint16_t>(quantiser, values_, nodes);
+    quantise(volume::Quantiser(mapping), values_, nodes_, nodes);
     return BrickVolume::of_level(level_, std::move(nodes), box_, n_, mapping, workers);
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "common/volume/levels.h"
+#include "renderer/shear/level_builder.h"
 #include "tests/support/reference_cubes.h"
 
 namespace shearwater::shear {
@@ -172,6 +173,19 @@ TEST(BrickVolume, TakesLittleMoreThanItsVoxels) {
     const auto voxels = static_cast<double>(cube.values().size());
     EXPECT_LT(static_cast<double>(volume.level(0).bytes()), 1.2 * voxels);
     EXPECT_LT(static_cast<double>(volume.bytes()), 1.3 * voxels);
+}
+
+// However thin the box, what its coarse levels are made from beyond it is not held. Nothing is touched here.
+TEST(BrickVolume, IsLoadedInLittleMoreThanItsVoxels) {
+    const Index3 n{2048, 2048, 2048};
+    for (const Box& box : {volume::whole(n), Box{{0, 0, 991}, {2047, 2047, 1054}},
+                           Box{{0, 991, 0}, {2047, 1054, 2047}}, Box{{991, 0, 0}, {1054, 2047, 2047}}}) {
+        for (const int bits : {8, 16}) {
+            const LevelBuilder builder(box, n, bits, 2);
+            const auto codes = static_cast<double>(box.voxels()) * bits / 8;
+            EXPECT_LT(static_cast<double>(builder.bytes()), 1.35 * codes) << to_string(box);
+        }
+    }
 }
 
 TEST(BrickVolume, RefusesBoxesThatAreNone) {

@@ -6,6 +6,7 @@
 
 #include "common/volume/levels.h"
 #include "renderer/shear/coarsen.h"
+#include "renderer/shear/level_builder.h"
 #include "renderer/shear/render.h"
 #include "tests/support/reference_cubes.h"
 
@@ -64,11 +65,12 @@ TEST(Stop, OfWhatFollowsReadingMakesNothing) {
     const volume::Index3 n{130, 121, 66};
     shear::CodeVolume voxels(volume::whole(n), 8);
     shear::CodeVolume coarse(volume::nodes_of(volume::whole(n), 1), 8);
-    EXPECT_FALSE(shear::coarsen(voxels, coarse, 1, n, workers, stop.get_token()));
+    EXPECT_FALSE(shear::coarsen(voxels, coarse, coarse.box(), 1, n, workers, stop.get_token()));
     EXPECT_FALSE(voxels.survey(voxels.box(), workers, stop.get_token()));
-    EXPECT_FALSE(voxels.crop({{1, 1, 1}, {100, 100, 60}}, stop.get_token()));
-    EXPECT_TRUE(voxels.crop(voxels.box(), stop.get_token())) << "there is nothing to do";
-    EXPECT_TRUE(voxels.crop({{1, 1, 1}, {100, 100, 60}}, {}));
+    shear::CodeVolume part({{1, 1, 1}, {100, 100, 60}}, 8);
+    EXPECT_FALSE(part.copy(voxels, part.box(), workers, stop.get_token()));
+    shear::LevelBuilder builder({{1, 1, 1}, {100, 100, 60}}, n, 8, 4);
+    EXPECT_FALSE(builder.rise(workers, stop.get_token()));
 }
 
 TEST(Stop, OfAFrameTakesNoSample) {
