@@ -1,0 +1,92 @@
+#include "renderer/culling/function_builder.h"
+
+#include <algorithm>
+#include <array>
+
+#include "common/base/check.h"
+#include "common/culling/rates.h"
+
+namespace shearwater::culling {
+
+namespace {
+
+// In units, rounded up: what is certain of it is certain of the code's rate.
+std::int16_t units_of(int code) {
+    return static_cast<std::int16_t>(std::ceil(rate_of(code) / depth_unit));
+}
+
+}  // namespace
+
+const FunctionBuilder::Sheaves& FunctionBuilder::sheaves_of(const std::array<int, 3>& counts) {
+    Sheaves& sheaves = sheaves_[counts];
+    if (sheaves.empty()) {
+        for (int cell = 0; cell < grid_.cells(); ++cell) {
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto slopes = grid_.slopes(cell, axis);
+                sheaves.push_back(slopes ? std::optional(Sheaf(axis, *slopes, counts)) : std::nullopt);
+            }
+        }
+    }
+    return sheaves;
+}
+
+// The greatest code up to `most` that is certain: near the guess at first, then ever farther from it.
+std::uint8_t FunctionBuilder::greatest_certain(const Layers& layers, const Sheaf& sheaf, int guess,
+                                               int most) {
+    int certain = 0, uncertain = most + 1;  // codes
+    int step = 1;
+    int at = std::clamp(guess, 1, most);
+    while (uncertain - certain > 1) {
+        // Falling; around `at` as long as neither end is near, else spread over what is left.
+        std::array<std::int16_t, Certifier::max_extinctions> units;
+        std::array<int, Certifier::max_extinctions> tried;
+        std::size_t count = 0;
+        for (int n = 1; n >= -2; --n) {
+            const int code = std::clamp(at + n * step, certain + 1, uncertain - 1);
+            if (count == 0 || code < tried[count - 1]) {
+                tried[count] = code;
+                units[count++] = units_of(code);
+            }
+        }
+        ++searches_;
+        const int found = certifier_.first_certain(layers, sheaf, std::span(units).first(count));
+        if (found < 0) {
+            uncertain = tried[count - 1];
+            at = uncertain - 2 * step;
+        } else {
+            certain = tried[static_cast<std::size_t>(found)];
+            if (found > 0) {
+                uncertain = tried[static_cast<std::size_t>(found) - 1];
+            }
+            at = found > 0 ? (certain + uncertain) / 2 : certain + 3 * step;
+        }
+        step = certain > 0 && uncertain <= most ? std::max((uncertain - certain) / 5, 1) : 3 * step;
+    }
+    return static_cast<std::uint8_t>(certain);
+}
+
+void FunctionBuilder::build(const BlockCells& cells, std::span<std::uint8_t> codes) {
+    base::check(codes.size() == static_cast<std::size_t>(grid_.cells()), "a code for each direction");
+    const int least = code_below(cells.least * depth_unit);
+    const int most = code_below(cells.greatest * depth_unit);
+    if (least == most) {
+        std::fill(codes.begin(), codes.end(), static_cast<std::uint8_t>(least));
+        return;
+    }
+    const Sheaves& sheaves = sheaves_of(cells.counts);
+    const std::array layers{Layers(cells, 0), Layers(cells, 1), Layers(cells, 2)};
+    int guess = least;
+    for (std::size_t cell = 0; cell < codes.size(); ++cell) {
+        int code = most;
+        for (std::size_t axis = 0; axis < 3 && code > least; ++axis) {
+            const auto& sheaf = sheaves[3 * cell + axis];
+            if (sheaf) {
+                code = greatest_certain(layers[axis], *sheaf, guess, code);
+            }
+        }
+        codes[cell] = static_cast<std::uint8_t>(std::max(code, least));
+        guess = codes[cell];
+    }
+}
+
+}  // namespace shearwater::culling

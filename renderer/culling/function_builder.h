@@ -1,0 +1,42 @@
+#pragma once
+// Optimised plenoptic opacity functions of blocks (POF 3.1, OPOF 4): for each cell of directions a rate that
+// no line of them falls below, taken over the samples that it has in the block. Whatever a ray's thickness D
+// in the block is, its optical depth there is at least the rate times D: nothing is linearised.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/culling/direction_grid.h"
+#include "renderer/culling/block_cells.h"
+#include "renderer/culling/sheaf.h"
+
+namespace shearwater::culling {
+
+class FunctionBuilder {
+  public:
+    explicit FunctionBuilder(const DirectionGrid& grid) : grid_(grid) {}
+
+    const DirectionGrid& grid() const { return grid_; }
+
+    // The codes (rates.h) of all cells of the grid.
+    void build(const BlockCells& cells, std::span<std::uint8_t> codes);
+
+    // How often bundles were searched, over all blocks.
+    std::int64_t searches() const { return searches_; }
+
+  private:
+    using Sheaves = std::vector<std::optional<Sheaf>>;  // of each direction and axis
+
+    const Sheaves& sheaves_of(const std::array<int, 3>& counts);
+    std::uint8_t greatest_certain(const Layers& layers, const Sheaf& sheaf, int guess, int most);
+
+    DirectionGrid grid_;
+    std::map<std::array<int, 3>, Sheaves> sheaves_;
+    Certifier certifier_;
+    std::int64_t searches_ = 0;
+};
+
+}  // namespace shearwater::culling

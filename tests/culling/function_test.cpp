@@ -1,0 +1,252 @@
+#include "renderer/culling/function_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "common/culling/rates.h"
+#include "tests/support/reference_cubes.h"
+
+namespace shearwater::culling {
+namespace {
+
+using shear::OpacityTable;
+using volume::Box;
+using volume::Index3;
+
+view::TransferFunction ramp(double x0, double a0, double x1, double a1) {
+    return {.opacity_pins = {view::Ramp{x0, a0, x1, a1}}, .colour_pins = {{0, {1, 1, 1}}}};
+}
+
+// A block of a cube under a transfer function.
+struct Block {
+    const shear::BrickVolume& volume;
+    OpacityTable table;
+    Box box;
+
+    Block(const shear::BrickVolume& of, const view::TransferFunction& tf, const Box& part)
+        : volume(of), table(tf, of.mapping().levels()), box(part) {}
+
+    const shear::CodeVolume& nodes() const { return volume.level(0); }
+    BlockCells cells() const { return {nodes(), box, LeastExtinctions(table, volume.mapping().bits, 1)}; }
+
+    double code(const Index3& p) const {
+        return volume.mapping().bits == 8 ? nodes().codes<std::uint8_t>()[nodes().offset(p)]
+                                          : nodes().codes<std::uint16_t>()[nodes().offset(p)];
+    }
+    // Optical depth along a unit of length at a point inside the cube: of the codes between its nodes.
+    double extinction(const std::array<double, 3>& p) const {
+        std::array<std::int64_t, 3> lo;
+        std::array<double, 3> f;
+        for (std::size_t a = 0; a < 3; ++a) {
+            lo[a] =
+                std::min<std::int64_t>(static_cast<std::int64_t>(std::floor(p[a])), nodes().box().hi[a] - 1);
+            f[a] = p[a] - static_cast<double>(lo[a]);
+        }
+        double code = 0;
+        for (std::size_t corner = 0; corner < 8; ++corner) {
+            Index3 at;
+            double weight = 1;
+            for (std::size_t a = 0; a < 3; ++a) {
+                const bool far = (corner >> a & 1) != 0;
+                at[a] = lo[a] + (far ? 1 : 0);
+                weight *= far ? f[a] : 1 - f[a];
+            }
+            if (weight > 0) {
+                const double c = this->code(at);
+                if (c == 0) {
+                    return 0;  // blank in part: at most transparent
+                }
+                code += weight * c;
+            }
+        }
+        const double node = code * static_cast<double>(table.nodes_per_code());
+        const auto below = static_cast<std::size_t>(node);
+        const double from = static_cast<double>(table.nodes()[below].extinction);
+        const double to = static_cast<double>(table.nodes()[below + 1].extinction);
+        return (from + (node - static_cast<double>(below)) * (to - from)) *
+               static_cast<double>(table.depth_unit()) * std::numbers::ln2;
+    }
+    bool owns(const std::array<double, 3>& p) const {
+        for (std::size_t a = 0; a < 3; ++a) {
+            if (p[a] < static_cast<double>(box.lo[a]) || p[a] >= static_cast<double>(box.hi[a])) {
+                return false;
+            }
+        }
+        return true;
+    }
+};
+
+// The mean extinction of a line's samples on planes 1 / `per_cell` apart along its axis that the block owns;
+// none where it has no sample.
+std::optional<double> mean_along(const Block& block, int axis, double u, double v,
+                                 const std::array<double, 3>& through, int per_cell) {
+    const auto w = static_cast<std::size_t>(axis);
+    double sum = 0;
+    int count = 0;
+    for (std::int64_t n = block.box.lo[w] * per_cell; n < block.box.hi[w] * per_cell; ++n) {
+        const double at = static_cast<double>(n) / per_cell;
+        std::array<double, 3> p = through;
+        p[w] = at;
+        p[(w + 1) % 3] += u * (at - through[w]);
+        p[(w + 2) % 3] += v * (at - through[w]);
+        if (block.owns(p)) {
+            sum += block.extinction(p);
+            ++count;
+        }
+    }
+    return count > 0 ? std::optional(sum / count) : std::nullopt;
+}
+
+// No line of any direction through the block has less in the mean than its direction's code says.
+void expect_below_every_line(const Block& block, int side, int lines, unsigned seed) {
+    FunctionBuilder builder{DirectionGrid(side)};
+    std::vector<std::uint8_t> codes(static_cast<std::size_t>(builder.grid().cells()));
+    builder.build(block.cells(), codes);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> slope(-1, 1), share(-0.2, 1.2);
+    std::vector<int> cells;
+    int met = 0;
+    for (int n = 0; n < lines; ++n) {
+        const int axis = n % 3;
+        const double u = slope(random), v = slope(random);
+        std::array<double, 3> through;
+        for (std::size_t a = 0; a < 3; ++a) {
+            through[a] = static_cast<double>(block.box.lo[a]) +
+                         share(random) * static_cast<double>(block.box.hi[a] - block.box.lo[a]);
+        }
+        builder.grid().cells_of(axis, {{u, u}, {v, v}}, cells);
+        for (const int per_cell : {1, 2}) {
+            if (const auto mean = mean_along(block, axis, u, v, through, per_cell)) {
+                ++met;
+                const int code = *std::min_element(codes.begin(), codes.end());
+                double rate = rate_of(code);
+                for (const int cell : cells) {
+                    rate = std::max(rate, rate_of(codes[static_cast<std::size_t>(cell)]));
+                }
+                EXPECT_GE(*mean * (1 + 1e-6), cells.size() == 1 ? rate : rate_of(code))
+                    << axis << ": " << u << ", " << v << " by " << per_cell;
+            }
+        }
+    }
+    EXPECT_GT(met, lines / 2);
+}
+
+test::FloatCube shells(const Index3& n) {
+    return test::FloatCube(n, [](double x, double y, double z) {
+        return static_cast<float>(0.5 + 0.5 * std::sin((x + 0.7 * y - 0.4 * z) / 4) * std::cos((y - z) / 7));
+    });
+}
+
+TEST(OpacityFunction, IsBelowEveryLine) {
+    base::Workers workers(1);
+    test::FloatCube noise = test::noise_cube({40, 40, 40});
+    test::FloatCube waves = shells({40, 40, 40});
+    test::FloatCube spotted = test::noise_cube({40, 40, 40}, 3);
+    for (std::size_t i = 0; i < spotted.values().size(); i += 97) {
+        spotted.values()[i] = std::numeric_limits<float>::quiet_NaN();
+    }
+    unsigned seed = 0;
+    for (test::FloatCube* cube : {&noise, &waves, &spotted}) {
+        for (const int bits : {8, 16}) {
+            const auto volume = test::bricks_of(*cube, workers, {.bits = bits});
+            for (const auto& tf :
+                 {ramp(0.2, 0.02, 0.9, 0.3), ramp(0.3, 0, 0.6, 0.9), ramp(0.1, 0.4, 0.5, 0.05)}) {
+                for (const Box& box : {Box{{0, 0, 0}, {32, 32, 32}}, Box{{32, 16, 3}, {39, 33, 35}}}) {
+                    expect_below_every_line(Block(volume, tf, box), 12, 300, ++seed);
+                }
+            }
+        }
+    }
+}
+
+TEST(OpacityFunction, IsBelowEveryLineInNarrowCells) {
+    base::Workers workers(1);
+    test::FloatCube waves = shells({34, 34, 34});
+    const auto volume = test::bricks_of(waves, workers);
+    expect_below_every_line(Block(volume, ramp(0.1, 0.01, 0.9, 0.5), {{0, 0, 0}, {32, 32, 32}}), 36, 3000, 7);
+}
+
+// Of a homogeneous block it is what the block has, in every direction.
+TEST(OpacityFunction, IsExactForAHomogeneousBlock) {
+    base::Workers workers(1);
+    test::FloatCube cube({40, 40, 40}, [](double, double, double) { return 0.5F; });
+    const auto volume = test::bricks_of(cube, workers);
+    for (const double opacity : {0.003, 0.05, 0.3}) {
+        const Block block(volume, ramp(0, opacity, 1, opacity), {{0, 0, 0}, {32, 32, 32}});
+        FunctionBuilder builder{DirectionGrid(36)};
+        std::vector<std::uint8_t> codes(648);
+        builder.build(block.cells(), codes);
+        for (const std::uint8_t code : codes) {
+            EXPECT_LE(rate_of(code), -std::log1p(-opacity));
+            EXPECT_GE(rate_of(code), 0.9 * -std::log1p(-opacity));
+        }
+    }
+}
+
+// A wall is opaque to lines across it, and not to those along it.
+TEST(OpacityFunction, DependsOnTheDirection) {
+    base::Workers workers(1);
+    test::FloatCube cube({33, 33, 33},
+                         [](double x, double, double) { return 10 < x && x < 20 ? 1.0F : 0.0F; });
+    const auto volume = test::bricks_of(cube, workers);
+    const Block block(volume, ramp(0.4, 0, 0.6, 0.5), {{0, 0, 0}, {32, 32, 32}});
+    FunctionBuilder builder{DirectionGrid(36)};
+    std::vector<std::uint8_t> codes(648);
+    builder.build(block.cells(), codes);
+    const auto rate_along = [&](int axis) {
+        std::vector<int> cells;
+        builder.grid().cells_of(axis, {{0.01, 0.01}, {0.01, 0.01}}, cells);
+        return rate_of(codes[static_cast<std::size_t>(cells.at(0))]);
+    };
+    EXPECT_GT(32 * rate_along(0), 3);
+    EXPECT_EQ(rate_along(1), 0);
+    EXPECT_EQ(rate_along(2), 0);
+}
+
+TEST(Certifier, IsItsDefinition) {
+    base::Workers workers(1);
+    std::mt19937 random(3);
+    Certifier certifier;
+    const DirectionGrid grid(12);
+    for (const Index3& counts : {Index3{32, 32, 32}, Index3{5, 32, 17}, Index3{1, 2, 3}}) {
+        test::FloatCube cube = test::noise_cube({counts[0] + 1, counts[1] + 1, counts[2] + 1});
+        const auto volume = test::bricks_of(cube, workers);
+        const Block block(volume, ramp(0.1, 0, 0.9, 0.3), volume.box());
+        const BlockCells cells = block.cells();
+        for (int n = 0; n < 40; ++n) {
+            const int cell = static_cast<int>(random() % static_cast<unsigned>(grid.cells()));
+            for (int axis = 0; axis < 3; ++axis) {
+                if (const auto slopes = grid.slopes(cell, axis)) {
+                    const Layers layers(cells, axis);
+                    const Sheaf sheaf(axis, *slopes, cells.counts);
+                    const auto top = static_cast<std::int16_t>(random() % 400);
+                    std::vector<std::int16_t> tried;
+                    for (int i = 0; i < 1 + n % 4; ++i) {
+                        tried.push_back(static_cast<std::int16_t>(top * (4 - i) / 4));
+                    }
+                    ASSERT_EQ(certifier.first_certain(layers, sheaf, tried),
+                              first_certain_by_definition(layers, sheaf, tried));
+                }
+            }
+        }
+    }
+}
+
+TEST(Rates, AreRoundedDown) {
+    EXPECT_EQ(rate_of(0), 0);
+    EXPECT_EQ(rate_of(255), greatest_rate);
+    for (int code = 1; code < 255; ++code) {
+        EXPECT_LT(rate_of(code), rate_of(code + 1));
+        EXPECT_EQ(code_below(rate_of(code) * (1 + 1e-12)), code);
+        EXPECT_EQ(code_below(rate_of(code) * (1 - 1e-12)), code - 1);
+    }
+    EXPECT_EQ(code_below(1e9), 255);
+    EXPECT_EQ(code_below(0), 0);
+}
+
+}  // namespace
+}  // namespace shearwater::culling
