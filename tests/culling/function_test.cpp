@@ -8,77 +8,14 @@
 #include <random>
 
 #include "common/culling/rates.h"
+#include "tests/culling/block.h"
 #include "tests/support/reference_cubes.h"
 
 namespace shearwater::culling {
 namespace {
 
-using shear::OpacityTable;
 using volume::Box;
 using volume::Index3;
-
-view::TransferFunction ramp(double x0, double a0, double x1, double a1) {
-    return {.opacity_pins = {view::Ramp{x0, a0, x1, a1}}, .colour_pins = {{0, {1, 1, 1}}}};
-}
-
-// A block of a cube under a transfer function.
-struct Block {
-    const shear::BrickVolume& volume;
-    OpacityTable table;
-    Box box;
-
-    Block(const shear::BrickVolume& of, const view::TransferFunction& tf, const Box& part)
-        : volume(of), table(tf, of.mapping().levels()), box(part) {}
-
-    const shear::CodeVolume& nodes() const { return volume.level(0); }
-    BlockCells cells() const { return {nodes(), box, LeastExtinctions(table, volume.mapping().bits, 1)}; }
-
-    double code(const Index3& p) const {
-        return volume.mapping().bits == 8 ? nodes().codes<std::uint8_t>()[nodes().offset(p)]
-                                          : nodes().codes<std::uint16_t>()[nodes().offset(p)];
-    }
-    // Optical depth along a unit of length at a point inside the cube: of the codes between its nodes.
-    double extinction(const std::array<double, 3>& p) const {
-        std::array<std::int64_t, 3> lo;
-        std::array<double, 3> f;
-        for (std::size_t a = 0; a < 3; ++a) {
-            lo[a] =
-                std::min<std::int64_t>(static_cast<std::int64_t>(std::floor(p[a])), nodes().box().hi[a] - 1);
-            f[a] = p[a] - static_cast<double>(lo[a]);
-        }
-        double code = 0;
-        for (std::size_t corner = 0; corner < 8; ++corner) {
-            Index3 at;
-            double weight = 1;
-            for (std::size_t a = 0; a < 3; ++a) {
-                const bool far = (corner >> a & 1) != 0;
-                at[a] = lo[a] + (far ? 1 : 0);
-                weight *= far ? f[a] : 1 - f[a];
-            }
-            if (weight > 0) {
-                const double c = this->code(at);
-                if (c == 0) {
-                    return 0;  // blank in part: at most transparent
-                }
-                code += weight * c;
-            }
-        }
-        const double node = code * static_cast<double>(table.nodes_per_code());
-        const auto below = static_cast<std::size_t>(node);
-        const double from = static_cast<double>(table.nodes()[below].extinction);
-        const double to = static_cast<double>(table.nodes()[below + 1].extinction);
-        return (from + (node - static_cast<double>(below)) * (to - from)) *
-               static_cast<double>(table.depth_unit()) * std::numbers::ln2;
-    }
-    bool owns(const std::array<double, 3>& p) const {
-        for (std::size_t a = 0; a < 3; ++a) {
-            if (p[a] < static_cast<double>(box.lo[a]) || p[a] >= static_cast<double>(box.hi[a])) {
-                return false;
-            }
-        }
-        return true;
-    }
-};
 
 // The mean extinction of a line's samples on planes 1 / `per_cell` apart along its axis that the block owns;
 // none where it has no sample.
@@ -135,12 +72,6 @@ void expect_below_every_line(const Block& block, int side, int lines, unsigned s
     EXPECT_GT(met, lines / 2);
 }
 
-test::FloatCube shells(const Index3& n) {
-    return test::FloatCube(n, [](double x, double y, double z) {
-        return static_cast<float>(0.5 + 0.5 * std::sin((x + 0.7 * y - 0.4 * z) / 4) * std::cos((y - z) / 7));
-    });
-}
-
 TEST(OpacityFunction, IsBelowEveryLine) {
     base::Workers workers(1);
     test::FloatCube noise = test::noise_cube({40, 40, 40});
@@ -185,26 +116,6 @@ TEST(OpacityFunction, IsExactForAHomogeneousBlock) {
             EXPECT_GE(rate_of(code), 0.9 * -std::log1p(-opacity));
         }
     }
-}
-
-// A wall is opaque to lines across it, and not to those along it.
-TEST(OpacityFunction, DependsOnTheDirection) {
-    base::Workers workers(1);
-    test::FloatCube cube({33, 33, 33},
-                         [](double x, double, double) { return 10 < x && x < 20 ? 1.0F : 0.0F; });
-    const auto volume = test::bricks_of(cube, workers);
-    const Block block(volume, ramp(0.4, 0, 0.6, 0.5), {{0, 0, 0}, {32, 32, 32}});
-    FunctionBuilder builder{DirectionGrid(36)};
-    std::vector<std::uint8_t> codes(648);
-    builder.build(block.cells(), codes);
-    const auto rate_along = [&](int axis) {
-        std::vector<int> cells;
-        builder.grid().cells_of(axis, {{0.01, 0.01}, {0.01, 0.01}}, cells);
-        return rate_of(codes[static_cast<std::size_t>(cells.at(0))]);
-    };
-    EXPECT_GT(32 * rate_along(0), 3);
-    EXPECT_EQ(rate_along(1), 0);
-    EXPECT_EQ(rate_along(2), 0);
 }
 
 TEST(Certifier, IsItsDefinition) {

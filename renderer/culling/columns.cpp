@@ -1,0 +1,214 @@
+#include "renderer/culling/columns.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "common/base/check.h"
+#include "common/culling/rates.h"
+#include "renderer/culling/column_kernel.h"
+
+namespace shearwater::culling {
+
+using volume::Box;
+using volume::Index3;
+
+std::size_t FunctionTable::block_count() const {
+    return static_cast<std::size_t>(blocks.cells(0) * blocks.cells(1) * blocks.cells(2));
+}
+
+namespace {
+
+// Cells at the cube's ends count half: a ray's first sample there may stand for half a step, and so its last.
+constexpr std::int64_t ends = 2;
+
+// All of a sub-volume's functions share.
+struct Task {
+    const shear::CodeVolume& nodes;
+    const LeastExtinctions& extinctions;
+    const DirectionGrid& directions;
+    std::int64_t edge;  // of a block, in nodes
+    Box cells;          // that are the sub-volume's alone, in nodes
+    Index3 cube;        // cells of the whole cube
+    FunctionTable& table;
+};
+
+// The sheaves of an axis through so many of a block's layers.
+using Sheaves = std::vector<std::optional<ColumnSheaf>>;
+
+Sheaves sheaves_of(const Task& task, int axis, std::int64_t first, std::int64_t count) {
+    Sheaves sheaves;
+    for (int cell = 0; cell < task.directions.cells(); ++cell) {
+        const auto slopes = task.directions.slopes(cell, axis);
+        sheaves.push_back(
+            slopes ? std::optional(ColumnSheaf(*slopes, static_cast<int>(first), static_cast<int>(count),
+                                               static_cast<double>(task.edge) / 2))
+                   : std::nullopt);
+    }
+    return sheaves;
+}
+
+// A row of blocks along u, with as much around it as its lines reach.
+class Strip {
+  public:
+    // Of the blocks at v and w along an axis.
+    Strip(const Task& task, int axis, std::int64_t block_v, std::int64_t block_w)
+        : task_(task),
+          u_(static_cast<std::size_t>((axis + 1) % 3)),
+          v_(static_cast<std::size_t>((axis + 2) % 3)),
+          w_(static_cast<std::size_t>(axis)),
+          block_v_(block_v),
+          block_w_(block_w) {
+        constexpr std::int64_t around = ColumnSheaf::farthest;
+        layers_ = within(w_, block_w * task.edge, (block_w + 1) * task.edge);
+        rows_ = within(v_, block_v * task.edge, (block_v + 1) * task.edge);
+        if (empty()) {
+            return;
+        }
+        const Range filled = within(v_, rows_.lo - around, rows_.hi + around);
+        row_ = task.cells.cells(static_cast<int>(u_)) + 2 * around + column_padding;
+        layer_ = row_ * (rows_.hi - rows_.lo + 2 * around);
+        units_.assign(static_cast<std::size_t>(layer_ * (layers_.hi - layers_.lo) + column_padding), 0);
+        fill(filled);
+    }
+
+    // A coarse level's cells may all lie across the sub-volume's faces.
+    bool empty() const { return layers_.lo >= layers_.hi || rows_.lo >= rows_.hi; }
+    std::int64_t first_layer() const { return layers_.lo - block_w_ * task_.edge; }
+    std::int64_t layers() const { return layers_.hi - layers_.lo; }
+
+    // Lowers the codes of all blocks of the strip to what its axis' sheaves say.
+    void find(const Sheaves& sheaves) {
+        const Box& blocks = task_.table.blocks;
+        const auto count = task_.table.block_count();
+        for (std::int64_t b = blocks.lo[u_]; b < blocks.hi[u_]; ++b) {
+            const Range columns = within(u_, b * task_.edge, (b + 1) * task_.edge);
+            Index3 at;
+            at[u_] = b - blocks.lo[u_];
+            at[v_] = block_v_ - blocks.lo[v_];
+            at[w_] = block_w_ - blocks.lo[w_];
+            const std::int64_t index = (at[2] * blocks.cells(1) + at[1]) * blocks.cells(0) + at[0];
+            const bool none = clear_ || columns.lo >= columns.hi;
+            const ColumnCells cells{
+                .first = none ? nullptr : &units_[offset(columns.lo, rows_.lo, layers_.lo)],
+                .row = row_,
+                .layer = layer_,
+                .bundles_u = static_cast<int>(columns.hi - columns.lo),
+                .bundles_v = static_cast<int>(rows_.hi - rows_.lo)};
+            for (std::size_t cell = 0; cell < sheaves.size(); ++cell) {
+                if (sheaves[cell]) {
+                    std::uint8_t& code = task_.table.codes[cell * count + static_cast<std::size_t>(index)];
+                    if (code > 0) {
+                        code = std::min(code, none ? std::uint8_t{0} : code_of(cells, *sheaves[cell]));
+                    }
+                }
+            }
+        }
+    }
+
+  private:
+    struct Range {
+        std::int64_t lo, hi;
+    };
+
+    // As far as the sub-volume's cells go.
+    Range within(std::size_t axis, std::int64_t lo, std::int64_t hi) const {
+        return {std::max(lo, task_.cells.lo[axis]), std::min(hi, task_.cells.hi[axis])};
+    }
+    std::size_t offset(std::int64_t u, std::int64_t v, std::int64_t w) const {
+        constexpr std::int64_t around = ColumnSheaf::farthest;
+        return static_cast<std::size_t>((w - layers_.lo) * layer_ + (v - rows_.lo + around) * row_ + u -
+                                        task_.cells.lo[u_] + around);
+    }
+    // In depth along the smallest distance of voxels, were all layers of the block there.
+    std::uint8_t code_of(const ColumnCells& cells, const ColumnSheaf& sheaf) const {
+        const double depth = least_depth(cells, sheaf) * depth_unit;
+        const std::int64_t all = std::min(task_.edge, task_.cube[w_] - block_w_ * task_.edge);
+        return code_below(depth / static_cast<double>(all));
+    }
+
+    void fill(const Range& filled) {
+        Box box;
+        box.lo[u_] = task_.cells.lo[u_];
+        box.hi[u_] = task_.cells.hi[u_];
+        box.lo[v_] = filled.lo;
+        box.hi[v_] = filled.hi;
+        box.lo[w_] = layers_.lo;
+        box.hi[w_] = layers_.hi;
+        std::vector<std::int16_t> row(static_cast<std::size_t>(box.cells(0)));
+        Index3 steps;
+        steps[u_] = 1;
+        steps[v_] = row_;
+        steps[w_] = layer_;
+        const auto at_end = [&](std::size_t axis, std::int64_t cell) {
+            return cell < ends || cell >= task_.cube[axis] - ends;
+        };
+        for (std::int64_t z = box.lo[2]; z < box.hi[2]; ++z) {
+            for (std::int64_t y = box.lo[1]; y < box.hi[1]; ++y) {
+                least_of_row(task_.nodes, {box.lo[0], y, z}, task_.extinctions, row);
+                Index3 first{box.lo[0], y, z};
+                std::uint16_t* to = &units_[offset(first[u_], first[v_], first[w_])];
+                const bool row_at_end = at_end(1, y) || at_end(2, z);
+                for (std::int64_t x = box.lo[0]; x < box.hi[0]; ++x, to += steps[0]) {
+                    const std::int16_t units = row[static_cast<std::size_t>(x - box.lo[0])];
+                    *to = static_cast<std::uint16_t>(row_at_end || at_end(0, x) ? units / 2 : units);
+                    clear_ = clear_ && units == 0;
+                }
+            }
+        }
+    }
+
+    const Task& task_;
+    std::size_t u_, v_, w_;
+    std::int64_t block_v_, block_w_;
+    Range layers_{}, rows_{};
+    std::int64_t row_ = 0, layer_ = 0;  // strides
+    std::vector<std::uint16_t> units_;
+    bool clear_ = true;
+};
+
+}  // namespace
+
+FunctionTable column_functions(const shear::CodeVolume& nodes, int level, const BlockGrid& grid,
+                               const Box& box, const Index3& n, const LeastExtinctions& extinctions,
+                               const DirectionGrid& directions, base::Workers& workers,
+                               const std::stop_token& stop) {
+    FunctionTable table{.blocks = grid.blocks_of(box), .side = directions.side(), .codes = {}};
+    Box cells;
+    Index3 cube;
+    for (std::size_t a = 0; a < 3; ++a) {
+        cells.lo[a] = (box.lo[a] + (std::int64_t{1} << level) - 1) >> level;
+        cells.hi[a] = box.hi[a] >> level;
+        cube[a] = (n[a] - 1) >> level;
+    }
+    const Task task{nodes, extinctions, directions, grid.edge() >> level, cells, cube, table};
+    table.codes.assign(table.block_count() * static_cast<std::size_t>(directions.cells()),
+                       static_cast<std::uint8_t>(most_code));
+    if (task.edge == 0 || cells.cells(0) < 1 || cells.cells(1) < 1 || cells.cells(2) < 1) {
+        std::fill(table.codes.begin(), table.codes.end(), std::uint8_t{0});
+        return table;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto v = static_cast<std::size_t>((axis + 2) % 3), w = static_cast<std::size_t>(axis);
+        const std::int64_t across = table.blocks.hi[v] - table.blocks.lo[v];
+        const std::int64_t along = table.blocks.hi[w] - table.blocks.lo[w];
+        const Sheaves whole = sheaves_of(task, axis, 0, task.edge);
+        const bool all = workers.for_each(
+            across * along,
+            [&](std::int64_t part) {
+                Strip strip(task, axis, table.blocks.lo[v] + part % across,
+                            table.blocks.lo[w] + part / across);
+                strip.find(strip.empty() || strip.layers() == task.edge
+                               ? whole
+                               : sheaves_of(task, axis, strip.first_layer(), strip.layers()));
+            },
+            stop);
+        if (!all) {
+            return {};
+        }
+    }
+    return table;
+}
+
+}  // namespace shearwater::culling

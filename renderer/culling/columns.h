@@ -1,0 +1,46 @@
+#pragma once
+// Opacity functions of columns: what every line of a direction's cell gathers between the two planes that
+// bound a block along the line's principal axis w, if it passes through the block half-way.
+//
+//      block a | block b | block c          In a block itself a line that clips a corner may meet nothing,
+//      and
+//    ----------+----/----+---------- w+32   the smallest ratio of depth to thickness (OPOF 4) of a block that
+//              |   /     |                  is not opaque to its very corners is none. Between the planes all
+//              |  * b's  |       half-way   lines of a direction have the same thickness, and those that pass
+//              a | /       |                  block only at a corner count where they are half-way.
+//    ----------+/--------+---------- w
+//
+// What of a line lies outside the sub-volume counts as clear, so what several sub-volumes find adds up.
+
+#include <cstdint>
+#include <functional>
+#include <stop_token>
+#include <vector>
+
+#include "common/base/workers.h"
+#include "common/culling/block_grid.h"
+#include "common/culling/direction_grid.h"
+#include "renderer/culling/least_extinctions.h"
+#include "renderer/shear/code_volume.h"
+
+namespace shearwater::culling {
+
+// Which blocks of a grid there are codes of, and where: code of block b and direction cell c at
+// [c * blocks.size() + b], blocks counted within `blocks`, axis 0 fastest.
+struct FunctionTable {
+    volume::Box blocks;               // from lo to hi, the latter not included
+    int side = 0;                     // of the direction grid
+    std::vector<std::uint8_t> codes;  // rates.h
+
+    std::size_t block_count() const;
+    bool operator==(const FunctionTable&) const = default;
+};
+
+// Of all blocks that a sub-volume has a part of, from the nodes of a level of it that it owns. Empty if
+// stopped before.
+FunctionTable column_functions(const shear::CodeVolume& nodes, int level, const BlockGrid& grid,
+                               const volume::Box& box, const volume::Index3& n,
+                               const LeastExtinctions& extinctions, const DirectionGrid& directions,
+                               base::Workers& workers, const std::stop_token& stop = {});
+
+}  // namespace shearwater::culling
