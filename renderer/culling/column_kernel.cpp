@@ -69,12 +69,11 @@ namespace shearwater::culling {
 
 HWY_EXPORT(least_depth);
 
-ColumnSheaf::ColumnSheaf(const Slopes& slopes, int first, int count, double middle)
+ColumnSheaf::ColumnSheaf(const Slopes& slopes, int first, int count, double middle, double sampled)
     : first_layer(first), layers(count) {
     base::check(0 < count && count <= max_layers, "a block has 1 to 32 layers");
-    const auto reach = [](const Interval& slope, double near) {
-        // From the layer's first plane to half-way to the next lie its samples.
-        const double far = near + 0.5;
+    const auto reach = [sampled](const Interval& slope, double near) {
+        const double far = near + sampled;
         const auto [lo, hi] = std::minmax({slope.lo * near, slope.lo * far, slope.hi * near, slope.hi * far});
         return Reach{static_cast<int>(std::floor(lo)), static_cast<int>(std::ceil(hi))};
     };

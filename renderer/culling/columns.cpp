@@ -20,17 +20,11 @@ std::size_t FunctionTable::block_count() const {
 
 namespace {
 
-// Cells at the cube's ends count half: a ray's first sample there may stand for half a step, and so its last.
-constexpr std::int64_t ends = 2;
-
 // All of a sub-volume's functions share.
 struct Task {
-    const shear::CodeVolume& nodes;
-    const LeastExtinctions& extinctions;
+    const Cells& cells;
     const DirectionGrid& directions;
-    std::int64_t edge;  // of a block, in nodes
-    Box cells;          // that are the sub-volume's alone, in nodes
-    Index3 cube;        // cells of the whole cube
+    std::int64_t edge;  // of a block, in cells
     FunctionTable& table;
 };
 
@@ -43,7 +37,7 @@ Sheaves sheaves_of(const Task& task, int axis, std::int64_t first, std::int64_t 
         const auto slopes = task.directions.slopes(cell, axis);
         sheaves.push_back(
             slopes ? std::optional(ColumnSheaf(*slopes, static_cast<int>(first), static_cast<int>(count),
-                                               static_cast<double>(task.edge) / 2))
+                                               static_cast<double>(task.edge) / 2, task.cells.sampled))
                    : std::nullopt);
     }
     return sheaves;
@@ -67,7 +61,7 @@ class Strip {
             return;
         }
         const Range filled = within(v_, rows_.lo - around, rows_.hi + around);
-        row_ = task.cells.cells(static_cast<int>(u_)) + 2 * around + column_padding;
+        row_ = task.cells.box.cells(static_cast<int>(u_)) + 2 * around + column_padding;
         layer_ = row_ * (rows_.hi - rows_.lo + 2 * around);
         units_.assign(static_cast<std::size_t>(layer_ * (layers_.hi - layers_.lo) + column_padding), 0);
         fill(filled);
@@ -114,24 +108,25 @@ class Strip {
 
     // As far as the sub-volume's cells go.
     Range within(std::size_t axis, std::int64_t lo, std::int64_t hi) const {
-        return {std::max(lo, task_.cells.lo[axis]), std::min(hi, task_.cells.hi[axis])};
+        return {std::max(lo, task_.cells.box.lo[axis]), std::min(hi, task_.cells.box.hi[axis])};
     }
     std::size_t offset(std::int64_t u, std::int64_t v, std::int64_t w) const {
         constexpr std::int64_t around = ColumnSheaf::farthest;
         return static_cast<std::size_t>((w - layers_.lo) * layer_ + (v - rows_.lo + around) * row_ + u -
-                                        task_.cells.lo[u_] + around);
+                                        task_.cells.box.lo[u_] + around);
     }
     // In depth along the smallest distance of voxels, were all layers of the block there.
     std::uint8_t code_of(const ColumnCells& cells, const ColumnSheaf& sheaf) const {
         const double depth = least_depth(cells, sheaf) * depth_unit;
-        const std::int64_t all = std::min(task_.edge, task_.cube[w_] - block_w_ * task_.edge);
-        return code_below(depth / static_cast<double>(all));
+        const std::int64_t voxels = task_.cells.voxels, first = block_w_ * task_.edge * voxels;
+        const std::int64_t all = std::min(task_.edge * voxels, task_.cells.n[w_] - 1 - first);
+        return code_below(depth * static_cast<double>(voxels) / static_cast<double>(all));
     }
 
     void fill(const Range& filled) {
         Box box;
-        box.lo[u_] = task_.cells.lo[u_];
-        box.hi[u_] = task_.cells.hi[u_];
+        box.lo[u_] = task_.cells.box.lo[u_];
+        box.hi[u_] = task_.cells.box.hi[u_];
         box.lo[v_] = filled.lo;
         box.hi[v_] = filled.hi;
         box.lo[w_] = layers_.lo;
@@ -142,11 +137,12 @@ class Strip {
         steps[v_] = row_;
         steps[w_] = layer_;
         const auto at_end = [&](std::size_t axis, std::int64_t cell) {
-            return cell < ends || cell >= task_.cube[axis] - ends;
+            return cell < task_.cells.ends ||
+                   cell >= (task_.cells.n[axis] - 1) / task_.cells.voxels - task_.cells.ends;
         };
         for (std::int64_t z = box.lo[2]; z < box.hi[2]; ++z) {
             for (std::int64_t y = box.lo[1]; y < box.hi[1]; ++y) {
-                least_of_row(task_.nodes, {box.lo[0], y, z}, task_.extinctions, row);
+                task_.cells.row({box.lo[0], y, z}, row);
                 Index3 first{box.lo[0], y, z};
                 std::uint16_t* to = &units_[offset(first[u_], first[v_], first[w_])];
                 const bool row_at_end = at_end(1, y) || at_end(2, z);
@@ -170,23 +166,15 @@ class Strip {
 
 }  // namespace
 
-FunctionTable column_functions(const shear::CodeVolume& nodes, int level, const BlockGrid& grid,
-                               const Box& box, const Index3& n, const LeastExtinctions& extinctions,
+FunctionTable column_functions(const Cells& cells, const BlockGrid& grid, const Box& box,
                                const DirectionGrid& directions, base::Workers& workers,
                                const std::stop_token& stop) {
     FunctionTable table{.blocks = grid.blocks_of(box), .side = directions.side(), .codes = {}};
-    Box cells;
-    Index3 cube;
-    for (std::size_t a = 0; a < 3; ++a) {
-        cells.lo[a] = (box.lo[a] + (std::int64_t{1} << level) - 1) >> level;
-        cells.hi[a] = box.hi[a] >> level;
-        cube[a] = (n[a] - 1) >> level;
-    }
-    const Task task{nodes, extinctions, directions, grid.edge() >> level, cells, cube, table};
+    const Task task{cells, directions, grid.edge() / cells.voxels, table};
+    const bool none = task.edge == 0 || cells.box.cells(0) * cells.box.cells(1) * cells.box.cells(2) == 0;
     table.codes.assign(table.block_count() * static_cast<std::size_t>(directions.cells()),
-                       static_cast<std::uint8_t>(most_code));
-    if (task.edge == 0 || cells.cells(0) < 1 || cells.cells(1) < 1 || cells.cells(2) < 1) {
-        std::fill(table.codes.begin(), table.codes.end(), std::uint8_t{0});
+                       static_cast<std::uint8_t>(none ? 0 : most_code));
+    if (none) {
         return table;
     }
     for (int axis = 0; axis < 3; ++axis) {

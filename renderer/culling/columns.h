@@ -13,15 +13,13 @@
 // What of a line lies outside the sub-volume counts as clear, so what several sub-volumes find adds up.
 
 #include <cstdint>
-#include <functional>
 #include <stop_token>
 #include <vector>
 
 #include "common/base/workers.h"
 #include "common/culling/block_grid.h"
 #include "common/culling/direction_grid.h"
-#include "renderer/culling/least_extinctions.h"
-#include "renderer/shear/code_volume.h"
+#include "renderer/culling/cells.h"
 
 namespace shearwater::culling {
 
@@ -36,11 +34,9 @@ struct FunctionTable {
     bool operator==(const FunctionTable&) const = default;
 };
 
-// Of all blocks that a sub-volume has a part of, from the nodes of a level of it that it owns. Empty if
-// stopped before.
-FunctionTable column_functions(const shear::CodeVolume& nodes, int level, const BlockGrid& grid,
-                               const volume::Box& box, const volume::Index3& n,
-                               const LeastExtinctions& extinctions, const DirectionGrid& directions,
-                               base::Workers& workers, const std::stop_token& stop = {});
+// Of all blocks that a sub-volume has a part of. Empty if stopped before.
+FunctionTable column_functions(const Cells& cells, const BlockGrid& grid, const volume::Box& box,
+                               const DirectionGrid& directions, base::Workers& workers,
+                               const std::stop_token& stop = {});
 
 }  // namespace shearwater::culling

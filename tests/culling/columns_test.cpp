@@ -44,15 +44,16 @@ double depth_along(const Block& block, const Box& box, const Box& between, int a
 
 // Lines of all directions through blocks: none gathers less than its direction's code says.
 void expect_below_every_line(const shear::BrickVolume& volume, const view::TransferFunction& tf, int side,
-                             int lines, unsigned seed) {
+                             int lines, unsigned seed, bool octants = false) {
     base::Workers workers(2);
     const Index3 n = volume.cube();
     const BlockGrid grid(n);
     const DirectionGrid directions(side);
     const Block all(volume, tf, volume.box());
-    const FunctionTable table =
-        column_functions(volume.level(0), 0, grid, volume.box(), n,
-                         LeastExtinctions(all.table, volume.mapping().bits, 1), directions, workers);
+    const LeastExtinctions extinctions(all.table, volume.mapping().bits, 1);
+    const Cells cells_of = octants ? cells_of_octants(volume.level(0), volume.box(), n, extinctions)
+                                   : cells_of_nodes(volume.level(0), 0, volume.box(), n, extinctions);
+    const FunctionTable table = column_functions(cells_of, grid, volume.box(), directions, workers);
     ASSERT_EQ(table.codes.size(), table.block_count() * static_cast<std::size_t>(directions.cells()));
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> slope(-1, 1), share(0, 1);
@@ -114,6 +115,7 @@ TEST(ColumnFunctions, AreBelowEveryLine) {
     }
     const auto volume = test::bricks_of(waves, workers);
     expect_below_every_line(volume, ramp(0.1, 0.01, 0.9, 0.5), 36, 3000, 77);
+    expect_below_every_line(volume, ramp(0.1, 0.01, 0.9, 0.5), 36, 3000, 78, true);
 }
 
 // A wall is opaque to all lines across it, and to none along it.
@@ -125,8 +127,10 @@ TEST(ColumnFunctions, DependOnTheDirection) {
     const Block all(volume, ramp(0.4, 0, 0.6, 0.5), volume.box());
     const BlockGrid grid(cube.n());
     const DirectionGrid directions(36);
-    const auto table = column_functions(volume.level(0), 0, grid, volume.box(), cube.n(),
-                                        LeastExtinctions(all.table, 8, 1), directions, workers);
+    const LeastExtinctions extinctions(all.table, 8, 1);
+    const auto table =
+        column_functions(cells_of_nodes(volume.level(0), 0, volume.box(), cube.n(), extinctions), grid,
+                         volume.box(), directions, workers);
     const auto rate_along = [&](int axis, double u, double v) {
         std::vector<int> cells;
         directions.cells_of(axis, {{u, u}, {v, v}}, cells);
@@ -144,8 +148,10 @@ TEST(ColumnFunctions, AreExactWhereAllIsAlike) {
     const auto volume = test::bricks_of(cube, workers);
     for (const double opacity : {0.003, 0.05, 0.3}) {
         const Block all(volume, ramp(0, opacity, 1, opacity), volume.box());
-        const auto table = column_functions(volume.level(0), 0, BlockGrid(cube.n()), volume.box(), cube.n(),
-                                            LeastExtinctions(all.table, 8, 1), DirectionGrid(36), workers);
+        const LeastExtinctions extinctions(all.table, 8, 1);
+        const auto table =
+            column_functions(cells_of_nodes(volume.level(0), 0, volume.box(), cube.n(), extinctions),
+                             BlockGrid(cube.n()), volume.box(), DirectionGrid(36), workers);
         for (std::size_t cell = 0; cell < 648; ++cell) {
             const double rate = rate_of(table.codes[cell * 27 + 13]);  // of the innermost block
             EXPECT_LE(rate, -std::log1p(-opacity));
@@ -169,7 +175,7 @@ TEST(ColumnKernel, IsItsDefinition) {
         }
         const int layers = 1 + static_cast<int>(random() % 32U);
         const int first = static_cast<int>(random() % static_cast<unsigned>(33 - layers));
-        const ColumnSheaf sheaf(*slopes, first, layers, 16);
+        const ColumnSheaf sheaf(*slopes, first, layers, 16, n % 2 == 0 ? 0.5 : 1);
         const ColumnCells block{.first = &cells[20 * 160 + 24],
                                 .row = 160,
                                 .layer = 80 * 160,
