@@ -56,4 +56,10 @@ class BlockSet {
     std::vector<std::uint8_t> in_;
 };
 
+// What a frame may see.
+struct VisibleBlocks {
+    BlockGrid grid;
+    BlockSet blocks;
+};
+
 }  // namespace shearwater::culling

@@ -14,10 +14,6 @@ namespace shearwater::culling {
 using volume::Box;
 using volume::Index3;
 
-std::size_t FunctionTable::block_count() const {
-    return static_cast<std::size_t>(blocks.cells(0) * blocks.cells(1) * blocks.cells(2));
-}
-
 namespace {
 
 // All of a sub-volume's functions share.

@@ -12,27 +12,15 @@
 //
 // What of a line lies outside the sub-volume counts as clear, so what several sub-volumes find adds up.
 
-#include <cstdint>
 #include <stop_token>
-#include <vector>
 
 #include "common/base/workers.h"
 #include "common/culling/block_grid.h"
 #include "common/culling/direction_grid.h"
+#include "common/culling/function_table.h"
 #include "renderer/culling/cells.h"
 
 namespace shearwater::culling {
-
-// Which blocks of a grid there are codes of, and where: code of block b and direction cell c at
-// [c * blocks.size() + b], blocks counted within `blocks`, axis 0 fastest.
-struct FunctionTable {
-    volume::Box blocks;               // from lo to hi, the latter not included
-    int side = 0;                     // of the direction grid
-    std::vector<std::uint8_t> codes;  // rates.h
-
-    std::size_t block_count() const;
-    bool operator==(const FunctionTable&) const = default;
-};
 
 // Of all blocks that a sub-volume has a part of. Empty if stopped before.
 FunctionTable column_functions(const Cells& cells, const BlockGrid& grid, const volume::Box& box,

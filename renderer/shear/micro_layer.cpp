@@ -26,13 +26,12 @@ double distance(const FacePlan& plan, const CodeGrid& grid, int axis, const Micr
 
 }  // namespace
 
-MicroLayer::MicroLayer(const CodeVolume& codes, const Classification& classification, const FacePlan& plan,
+MicroLayer::MicroLayer(const CodeVolume& codes, std::span<const Content> contents, const FacePlan& plan,
                        std::int64_t layer, const MicroRun& fast, const MicroRun& slow)
     : plan_(plan), grid_(codes.micro_bricks()), first_row_(slow.first) {
     const volume::Index3& counts = grid_.counts();
     const volume::Index3 strides{1, counts[0], counts[0] * counts[1]};
-    first_ = classification.micro_bricks[static_cast<std::size_t>(plan.level())].data() +
-             layer * strides[static_cast<std::size_t>(plan.face().axis)];
+    first_ = contents.data() + layer * strides[static_cast<std::size_t>(plan.face().axis)];
     fast_stride_ = strides[static_cast<std::size_t>(plan.fast_axis())];
     slow_stride_ = strides[static_cast<std::size_t>(plan.slow_axis())];
     std::int64_t opaque = 0, blank = 0;

@@ -2,6 +2,7 @@
 // A layer of micro-bricks across a face's principal axis: which of its octants to visit, in what order.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "renderer/shear/classification.h"
@@ -26,9 +27,9 @@ enum class Visit {
 
 class MicroLayer {
   public:
-    // The part of a layer between micro-bricks; `layer` counts along the principal axis from the sub-volume's
-    // first.
-    MicroLayer(const CodeVolume& codes, const Classification& classification, const FacePlan& plan,
+    // The part of a layer between micro-bricks with these contents; `layer` counts along the principal axis
+    // from the sub-volume's first.
+    MicroLayer(const CodeVolume& codes, std::span<const Content> contents, const FacePlan& plan,
                std::int64_t layer, const MicroRun& fast, const MicroRun& slow);
 
     Visit visit() const { return visit_; }

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "renderer/shear/face_plan.h"
+#include "renderer/shear/seen.h"
 #include "renderer/shear/tile.h"
 
 namespace shearwater::shear {
@@ -22,6 +23,7 @@ using view::Rect;
 struct Frame {
     const BrickVolume& volume;
     const Classification& classification;
+    std::span<const Content> contents;
     BricksMet met;
     std::uint64_t samples = 0;
 };
@@ -152,7 +154,8 @@ class FaceRenderer {
         const int y =
             part.rect.y0 + static_cast<int>((n - part.first_tile) / part.across) * Tile<Code>::height;
         auto tile = idle_.take([this] {
-            return std::make_unique<Tile<Code>>(frame_.volume, frame_.classification, plan_, frame_.met);
+            return std::make_unique<Tile<Code>>(frame_.volume, frame_.classification, frame_.contents, plan_,
+                                                frame_.met);
         });
         tile->render(intersection(part.rect, {x, y, x + Tile<Code>::width, y + Tile<Code>::height}));
         tile->store(part.window);
@@ -199,24 +202,36 @@ void render_faces(Frame& frame, const view::Factorisation& factorisation, std::s
 
 RenderStats render_bands(const BrickVolume& volume, const Classification& classification,
                          const view::Factorisation& factorisation, std::span<const view::Band> bands,
-                         base::Workers& workers, const OnBands& on_bands, const std::stop_token& stop) {
+                         base::Workers& workers, const OnBands& on_bands, const std::stop_token& stop,
+                         const culling::VisibleBlocks* visible) {
     base::check(factorisation.lattice.n == volume.cube(), "a factorisation is that of the volume's cube");
     base::check(factorisation.level() < volume.levels(), "a factorisation keeps to the cube's levels");
     base::check(
         classification.segments.has_value() == (factorisation.classify == view::Classify::pre_integrated),
         "a volume is classified as the factorisation has it");
+    const std::vector<Content>& all =
+        classification.micro_bricks[static_cast<std::size_t>(factorisation.level())];
+    const std::vector<Content> seen = visible != nullptr ? seen_contents(volume.level(factorisation.level()),
+                                                                         factorisation.level(), all, *visible)
+                                                         : std::vector<Content>();
     Frame frame{.volume = volume,
                 .classification = classification,
+                .contents = visible != nullptr ? seen : all,
                 .met = BricksMet(volume.bricks().ranges().size())};
     volume.mapping().bits == 8
         ? render_faces<std::uint8_t>(frame, factorisation, bands, workers, on_bands, stop)
         : render_faces<std::uint16_t>(frame, factorisation, bands, workers, on_bands, stop);
-    return count(frame);
+    RenderStats stats = count(frame);
+    if (visible != nullptr) {
+        stats.bricks_culled = hidden_bricks(volume, classification.opaque, *visible);
+    }
+    return stats;
 }
 
 std::vector<Window> render(const BrickVolume& volume, const Classification& classification,
                            const view::Factorisation& factorisation, base::Workers& workers,
-                           RenderStats* stats, const std::stop_token& stop) {
+                           RenderStats* stats, const std::stop_token& stop,
+                           const culling::VisibleBlocks* visible) {
     std::vector<view::Band> whole;
     for (const view::Face& face : factorisation.faces) {
         whole.push_back({static_cast<int>(whole.size()), {0, 0, face.width, face.height}});
@@ -228,7 +243,7 @@ std::vector<Window> render(const BrickVolume& volume, const Classification& clas
         }
     };
     const RenderStats counted =
-        render_bands(volume, classification, factorisation, whole, workers, keep, stop);
+        render_bands(volume, classification, factorisation, whole, workers, keep, stop, visible);
     if (stats != nullptr) {
         *stats = counted;
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/base/workers.h"
+#include "common/culling/block_grid.h"
 #include "common/image/image.h"
 #include "common/view/bands.h"
 #include "common/view/factorisation.h"
@@ -21,6 +22,7 @@ struct RenderStats {
     std::uint64_t samples = 0;  // taken along all rays
     std::uint64_t bricks_total = 0;
     std::uint64_t bricks_empty = 0;     // no opacity under this transfer function
+    std::uint64_t bricks_culled = 0;    // hidden behind others, of those that have some
     std::uint64_t bricks_rendered = 0;  // seen by at least one ray
 };
 
@@ -34,10 +36,11 @@ using OnBands = std::function<void(DrawnBands)>;
 
 // Renders a classified volume band by band, in the order of the frame's bands; they are cut from the faces in
 // that of the faces. `on_bands` is told of them as soon as they are whole, in their order and one after the
-// other, on any of the threads, while the others go on.
+// other, on any of the threads, while the others go on. What lies in blocks that are not visible is left out.
 RenderStats render_bands(const BrickVolume& volume, const Classification& classification,
                          const view::Factorisation& factorisation, std::span<const view::Band> bands,
-                         base::Workers& workers, const OnBands& on_bands, const std::stop_token& stop = {});
+                         base::Workers& workers, const OnBands& on_bands, const std::stop_token& stop = {},
+                         const culling::VisibleBlocks* visible = nullptr);
 
 // Renders a classified volume for every face, front to back with early termination. The factorisation's
 // lattice is the cube's. Samples are placed by global voxel index, so windows of leaves that share a
@@ -45,7 +48,8 @@ RenderStats render_bands(const BrickVolume& volume, const Classification& classi
 // Stops soon after `stop` is requested; what it then returns is of no use.
 std::vector<image::Window> render(const BrickVolume& volume, const Classification& classification,
                                   const view::Factorisation& factorisation, base::Workers& workers,
-                                  RenderStats* stats = nullptr, const std::stop_token& stop = {});
+                                  RenderStats* stats = nullptr, const std::stop_token& stop = {},
+                                  const culling::VisibleBlocks* visible = nullptr);
 // Classifies it first.
 std::vector<image::Window> render(const BrickVolume& volume, const view::Factorisation& factorisation,
                                   const view::TransferFunction& tf, base::Workers& workers,

@@ -39,11 +39,12 @@ PixelRange pixels_within(const PixelRange& range, double offset, double scale, d
 }  // namespace
 
 template <class Code>
-Tile<Code>::Tile(const BrickVolume& volume, const Classification& classification, const FacePlan& plan,
-                 BricksMet& met)
+Tile<Code>::Tile(const BrickVolume& volume, const Classification& classification,
+                 std::span<const Content> contents, const FacePlan& plan, BricksMet& met)
     : bricks_(volume.bricks()),
       codes_(volume.level(plan.level())),
       classification_(classification),
+      contents_(contents),
       nodes_(classification.segments ? codes_.box() : codes_.own()),
       plan_(plan),
       met_(met),
@@ -155,7 +156,7 @@ void Tile<Code>::render_slices(Slices slices, std::span<const std::int64_t> numb
         return MicroRun{(region.lo[n] - first) / edge, (region.hi[n] - 1 - first) / edge + 1};
     };
     const int fast_axis = plan_.fast_axis(), slow_axis = plan_.slow_axis();
-    const MicroLayer layer(codes_, classification_, plan_, number, run(0, fast_axis, micro_edge),
+    const MicroLayer layer(codes_, contents_, plan_, number, run(0, fast_axis, micro_edge),
                            run(1, slow_axis, micro_edge));
     if (layer.visit() == Visit::none) {
         return;

@@ -28,9 +28,9 @@ class Tile {
     static constexpr int width = widest_tile;
     static constexpr int height = tallest_tile;
 
-    // All have to outlive it.
-    Tile(const BrickVolume& volume, const Classification& classification, const FacePlan& plan,
-         BricksMet& met);
+    // All have to outlive it. The contents are those of the level's micro-bricks that may be seen.
+    Tile(const BrickVolume& volume, const Classification& classification, std::span<const Content> contents,
+         const FacePlan& plan, BricksMet& met);
 
     // Renders the pixels of a rectangle of at most width x height, from nothing.
     void render(const view::Rect& rect);
@@ -85,6 +85,7 @@ class Tile {
     const CodeGrid& bricks_;
     const CodeVolume& codes_;  // of the level that is drawn
     const Classification& classification_;
+    std::span<const Content> contents_;
     const volume::Box& nodes_;  // of the codes, that samples may lie between
     const FacePlan& plan_;
     BricksMet& met_;

@@ -1,0 +1,60 @@
+#pragma once
+// The opacity functions of a cube's blocks that there are so far, and what they say of a transfer function.
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "common/culling/block_grid.h"
+#include "common/culling/family.h"
+#include "common/culling/function_table.h"
+#include "common/culling/visible_blocks.h"
+
+namespace shearwater::culling {
+
+// What a table is of: a basis at a rung of the ladder, on a level of detail.
+struct FunctionKey {
+    Basis basis;
+    int rung = 0;
+    int level = 0;
+    bool operator==(const FunctionKey&) const = default;
+};
+
+class FunctionStore {
+  public:
+    FunctionStore(const BlockGrid& grid, const DirectionGrid& directions);
+
+    const BlockGrid& grid() const { return grid_; }
+
+    // A table of the whole grid; in the place of one that was there.
+    void put(const FunctionKey& key, std::shared_ptr<const FunctionTable> table);
+    bool has(const FunctionKey& key) const { return find(key) != nullptr; }
+
+    // Of a transfer function on a level, by what is there now: a member without a table at its rung or below
+    // has no opacity. Lasts until the next put() or rates().
+    BlockRates rates(const view::TransferFunction& tf, int level);
+
+  private:
+    struct Scaled {
+        const FunctionTable* table;
+        std::array<float, 256> rate;  // of a code, times the member's height
+    };
+    struct Combined {
+        view::TransferFunction tf;
+        int level;
+        std::vector<Scaled> scaled;
+        Combination combination;
+        std::map<int, std::vector<float>> of;  // by direction cell
+    };
+
+    std::shared_ptr<const FunctionTable> find(const FunctionKey& key) const;
+    std::span<const float> combine(int cell);
+
+    BlockGrid grid_;
+    DirectionGrid directions_;
+    std::vector<std::pair<FunctionKey, std::shared_ptr<const FunctionTable>>> tables_;
+    std::unique_ptr<Combined> combined_;  // of what was last asked for
+};
+
+}  // namespace shearwater::culling

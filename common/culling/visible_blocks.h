@@ -1,0 +1,36 @@
+#pragma once
+// Which blocks a frame's rays may see (POF 3.3), whatever the projection and wherever the eye is.
+//
+// Each face's image is cut into beams of a few pixels a side. A beam goes front to back through the slabs of
+// blocks across the face's principal axis. What it meets of a slab is visible as long as it has light left;
+// then it has gathered at least the least that its directions' functions (rates.h) say of the blocks that it
+// is in half-way through the slab, along the shortest of its rays:
+//
+//     eye >===  slab 0  |  slab 1  |          depth >= rate * thickness * step, summed slab by slab
+//              [a][b]   |[a][b][c] |
+//
+// So every ray of a beam has at least the depth counted when it comes to a block that is not visible, and
+// what is left out lies behind that depth, on every ray.
+
+#include <functional>
+#include <span>
+
+#include "common/base/workers.h"
+#include "common/culling/block_grid.h"
+#include "common/culling/direction_grid.h"
+#include "common/view/factorisation.h"
+
+namespace shearwater::culling {
+
+struct BlockRates {
+    DirectionGrid directions;
+    // Of all the grid's blocks, in optical depth along the smallest distance of two voxels; for lines of one
+    // of the directions' cells. Asked for from one thread; what it gives lasts as long as this.
+    std::function<std::span<const float>(int cell)> of;
+};
+
+// A block is visible if some ray may meet it with less than `depth` before it.
+BlockSet visible_blocks(const view::Factorisation& factorisation, const BlockGrid& grid,
+                        const BlockRates& rates, double depth, base::Workers& workers);
+
+}  // namespace shearwater::culling
