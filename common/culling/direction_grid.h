@@ -27,6 +27,8 @@ class DirectionGrid {
     // a little beyond.
     static constexpr double steepest = 1.0625;
 
+    static constexpr int default_side = 36;
+
     // So many cells along theta and along phi, a multiple of 4.
     explicit DirectionGrid(int side);
 

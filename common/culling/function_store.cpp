@@ -34,13 +34,13 @@ std::shared_ptr<const FunctionTable> FunctionStore::find(const FunctionKey& key)
     return nullptr;
 }
 
-BlockRates FunctionStore::rates(const view::TransferFunction& tf, int level) {
-    if (!combined_ || combined_->tf != tf || combined_->level != level) {
+BlockRates FunctionStore::rates(const view::TransferFunction& tf, Footprint footprint, int level) {
+    if (!combined_ || combined_->tf != tf || combined_->footprint != footprint || combined_->level != level) {
         std::vector<Member> members;
         std::vector<Scaled> scaled;
         for (const Member& member : members_of(tf)) {
             for (int rung = rung_below(member.height).value_or(-1); rung >= 0; --rung) {
-                if (const auto table = find({member.basis, rung, level})) {
+                if (const auto table = find({footprint, member.basis, rung, level})) {
                     Scaled& of = scaled.emplace_back();
                     of.table = table.get();
                     for (int code = 0; code < 256; ++code) {
@@ -52,8 +52,8 @@ BlockRates FunctionStore::rates(const view::TransferFunction& tf, int level) {
                 }
             }
         }
-        combined_ =
-            std::make_unique<Combined>(Combined{tf, level, std::move(scaled), Combination(members), {}});
+        combined_ = std::make_unique<Combined>(
+            Combined{tf, footprint, level, std::move(scaled), Combination(members), {}});
     }
     return {directions_, [this](int cell) { return combine(cell); }};
 }

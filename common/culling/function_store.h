@@ -13,8 +13,16 @@
 
 namespace shearwater::culling {
 
+// What lines are taken together in a function: those through a block, over what they have in it, or those
+// that pass it half-way, between its planes.
+enum class Footprint { block, column };
+inline Footprint footprint_of(Kind kind) {
+    return kind == Kind::opof ? Footprint::column : Footprint::block;
+}
+
 // What a table is of: a basis at a rung of the ladder, on a level of detail.
 struct FunctionKey {
+    Footprint footprint = Footprint::column;
     Basis basis;
     int rung = 0;
     int level = 0;
@@ -33,7 +41,7 @@ class FunctionStore {
 
     // Of a transfer function on a level, by what is there now: a member without a table at its rung or below
     // has no opacity. Lasts until the next put() or rates().
-    BlockRates rates(const view::TransferFunction& tf, int level);
+    BlockRates rates(const view::TransferFunction& tf, Footprint footprint, int level);
 
   private:
     struct Scaled {
@@ -42,6 +50,7 @@ class FunctionStore {
     };
     struct Combined {
         view::TransferFunction tf;
+        Footprint footprint;
         int level;
         std::vector<Scaled> scaled;
         Combination combination;

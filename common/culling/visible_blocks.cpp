@@ -41,8 +41,18 @@ struct Side {
 class FacePass {
   public:
     FacePass(const Factorisation& factorisation, const Face& face, const BlockGrid& grid,
-             const BlockRates& rates, double depth, BlockSet& visible)
-        : f_(factorisation), face_(face), grid_(grid), depth_(depth), visible_(visible) {
+             const BlockRates& rates, const Settings& settings, BlockSet& visible)
+        : f_(factorisation),
+          face_(face),
+          grid_(grid),
+          kind_(settings.kind),
+          depth_(-std::log1p(-settings.threshold)),
+          visible_(visible) {
+        for (std::size_t a = 0; a < 3; ++a) {
+            // Cells across the cube's end, of whichever size, are left out.
+            const std::int64_t cell = std::max<std::int64_t>(std::int64_t{1} << factorisation.level(), 4);
+            ends_[a] = static_cast<double>((factorisation.lattice.n[a] - 1) / cell * cell);
+        }
         const int pixels = std::max((std::max(face.width, face.height) + most_beams - 1) / most_beams, 1);
         u_ = sides(face.u_axis(), face.origin.x, face.pitch.x, face.width, pixels);
         v_ = sides(face.v_axis(), face.origin.y, face.pitch.y, face.height, pixels);
@@ -157,9 +167,9 @@ class FacePass {
         double left = depth_;
         for (const Slab& slab : slabs_) {
             const double near = slab.near - origin(), far = slab.far - origin();
-            Run in_u = run(between(u, near, far)), in_v = run(between(v, near, far));
-            in_u = {std::max<std::int64_t>(in_u.first, 0), std::min(in_u.last, count_u - 1)};
-            in_v = {std::max<std::int64_t>(in_v.first, 0), std::min(in_v.last, count_v - 1)};
+            const Run met_u = run(between(u, near, far)), met_v = run(between(v, near, far));
+            const Run in_u{std::max<std::int64_t>(met_u.first, 0), std::min(met_u.last, count_u - 1)};
+            const Run in_v{std::max<std::int64_t>(met_v.first, 0), std::min(met_v.last, count_v - 1)};
             if (in_u.first > in_u.last || in_v.first > in_v.last) {
                 continue;
             }
@@ -174,31 +184,54 @@ class FacePass {
             if (slab.thickness == 0) {
                 continue;
             }
+            // Lines that are out of the cube there are among none of its blocks' functions.
             const double middle = slab.middle - origin();
-            const Run half_u = run(between(u, middle, middle)), half_v = run(between(v, middle, middle));
-            if (half_u.first < 0 || half_u.last >= count_u || half_v.first < 0 || half_v.last >= count_v) {
+            const bool half_way = kind_ == Kind::opof;
+            const Interval by_u = half_way ? between(u, middle, middle) : between(u, near, far);
+            const Interval by_v = half_way ? between(v, middle, middle) : between(v, near, far);
+            if (by_u.lo < 0 || by_u.hi >= ends_[ua] || by_v.lo < 0 || by_v.hi >= ends_[va]) {
                 continue;
             }
+            const Run run_u = run(by_u), run_v = run(by_v);
             float least = std::numeric_limits<float>::max();
             for (const float* const of : rates) {
-                for (std::int64_t bv = half_v.first; bv <= half_v.last; ++bv) {
-                    for (std::int64_t bu = half_u.first; bu <= half_u.last; ++bu) {
+                for (std::int64_t bv = run_v.first; bv <= run_v.last; ++bv) {
+                    for (std::int64_t bu = run_u.first; bu <= run_u.last; ++bu) {
                         least = std::min(least, of[slab_first + bv * strides[va] + bu * strides[ua]]);
                     }
                 }
             }
-            left -= static_cast<double>(least) * slab.thickness * step;
+            const int parts = 1 + (run_u.first < run_u.last ? 1 : 0) + (run_v.first < run_v.last ? 1 : 0);
+            left -= depth_of(static_cast<double>(least) * step, slab.thickness, parts);
             if (left <= 0) {
                 return;
             }
         }
     }
 
+    // Of a slab whose blocks have at least a rate, from plane to plane, crossed in at most so many parts.
+    double depth_of(double rate, double thickness, int parts) const {
+        switch (kind_) {
+            case Kind::pof:
+                return rate;  // some block has a sample of the ray
+            case Kind::opof_linear: {
+                // The opacity of a part is the greatest thickness' times its share of that. Together parts
+                // are least opaque if they are alike.
+                const double opacity = -std::expm1(-rate * thickness);
+                return -parts * std::log1p(-opacity / parts * (1 - 1e-12));
+            }
+            default:
+                return rate * thickness;
+        }
+    }
+
     const Factorisation& f_;
     const Face& face_;
     const BlockGrid& grid_;
-    double depth_;
+    Kind kind_;
+    double depth_;  // that hides what is behind
     BlockSet& visible_;
+    std::array<double, 3> ends_;  // of what functions are of, in voxels
     std::vector<Side> u_, v_;
     std::vector<Slab> slabs_;
     std::vector<const float*> rates_;    // of the directions of some beams, one after the other
@@ -209,10 +242,10 @@ class FacePass {
 }  // namespace
 
 BlockSet visible_blocks(const Factorisation& factorisation, const BlockGrid& grid, const BlockRates& rates,
-                        double depth, base::Workers& workers) {
+                        const Settings& settings, base::Workers& workers) {
     BlockSet visible(grid.size());
     for (const Face& face : factorisation.faces) {
-        FacePass pass(factorisation, face, grid, rates, depth, visible);
+        FacePass pass(factorisation, face, grid, rates, settings, visible);
         workers.for_each(pass.rows(), [&](std::int64_t row) { pass.pass_row(row); });
     }
     return visible;

@@ -3,12 +3,13 @@
 //
 // Each face's image is cut into beams of a few pixels a side. A beam goes front to back through the slabs of
 // blocks across the face's principal axis. What it meets of a slab is visible as long as it has light left;
-// then it has gathered at least the least that its directions' functions (rates.h) say of the blocks that it
-// is in half-way through the slab, along the shortest of its rays:
+// then it has gathered at least what its directions' functions (rates.h) say of blocks that it passes:
 //
-//     eye >===  slab 0  |  slab 1  |          depth >= rate * thickness * step, summed slab by slab
-//              [a][b]   |[a][b][c] |
+//     eye >===  slab 0  |  slab 1  |     opof: rate * thickness, of blocks that it is in half-way through the
+//     slab;
+//              [a][b]   |[a][b][c] |     the others: of any that it meets there
 //
+// all the least of several, along the shortest of its rays.
 // So every ray of a beam has at least the depth counted when it comes to a block that is not visible, and
 // what is left out lies behind that depth, on every ray.
 
@@ -18,6 +19,7 @@
 #include "common/base/workers.h"
 #include "common/culling/block_grid.h"
 #include "common/culling/direction_grid.h"
+#include "common/culling/settings.h"
 #include "common/view/factorisation.h"
 
 namespace shearwater::culling {
@@ -29,8 +31,8 @@ struct BlockRates {
     std::function<std::span<const float>(int cell)> of;
 };
 
-// A block is visible if some ray may meet it with less than `depth` before it.
+// The rates are of the functions that the settings' kind goes by, which is not off.
 BlockSet visible_blocks(const view::Factorisation& factorisation, const BlockGrid& grid,
-                        const BlockRates& rates, double depth, base::Workers& workers);
+                        const BlockRates& rates, const Settings& settings, base::Workers& workers);
 
 }  // namespace shearwater::culling

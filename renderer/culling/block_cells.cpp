@@ -7,9 +7,8 @@
 
 namespace shearwater::culling {
 
-BlockCells::BlockCells(const shear::CodeVolume& nodes, const volume::Box& box,
-                       const LeastExtinctions& extinctions) {
-    base::check(nodes.box().contains(box), "a block's nodes are held");
+BlockCells::BlockCells(const Cells& cells, const volume::Box& box) {
+    base::check(cells.box.contains(box), "a block's cells are the sub-volume's");
     for (int axis = 0; axis < 3; ++axis) {
         base::check(0 < box.cells(axis) && box.cells(axis) <= max_edge, "a block has 1 to 32 cells a side");
         counts[static_cast<std::size_t>(axis)] = static_cast<int>(box.cells(axis));
@@ -19,7 +18,7 @@ BlockCells::BlockCells(const shear::CodeVolume& nodes, const volume::Box& box,
     std::span<std::int16_t> left = units;
     for (std::int64_t z = box.lo[2]; z < box.hi[2]; ++z) {
         for (std::int64_t y = box.lo[1]; y < box.hi[1]; ++y) {
-            least_of_row(nodes, {box.lo[0], y, z}, extinctions, left.first(length));
+            cells.row({box.lo[0], y, z}, left.first(length));
             left = left.subspan(length);
         }
     }

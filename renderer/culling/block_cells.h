@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/volume/box.h"
-#include "renderer/culling/least_extinctions.h"
+#include "renderer/culling/cells.h"
 
 namespace shearwater::culling {
 
@@ -17,8 +17,8 @@ struct BlockCells {
     std::vector<std::int16_t> units;  // axis 0 fastest
     std::int16_t least = 0, greatest = 0;
 
-    // Of the cells between the nodes of a box inside a volume.
-    BlockCells(const shear::CodeVolume& nodes, const volume::Box& box, const LeastExtinctions& extinctions);
+    // Of a box of cells, which has some.
+    BlockCells(const Cells& cells, const volume::Box& box);
 };
 
 }  // namespace shearwater::culling

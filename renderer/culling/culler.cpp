@@ -1,11 +1,11 @@
 #include "renderer/culling/culler.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "common/base/check.h"
 #include "renderer/culling/columns.h"
+#include "renderer/culling/function_builder.h"
 
 namespace shearwater::culling {
 
@@ -21,24 +21,28 @@ FunctionTable functions_of(const shear::BrickVolume& volume, const FunctionKey& 
     const Cells cells = from_octants
                             ? cells_of_octants(nodes, volume.box(), volume.cube(), extinctions)
                             : cells_of_nodes(nodes, key.level, volume.box(), volume.cube(), extinctions);
-    return column_functions(cells, grid, volume.box(), directions, workers, stop);
+    return key.footprint == Footprint::column
+               ? column_functions(cells, grid, volume.box(), directions, workers, stop)
+               : block_functions(cells, grid, volume.box(), directions, workers, stop);
 }
 
-Culler::Culler(const shear::BrickVolume& volume, const view::Vec3& spacing, const Settings& settings)
+Culler::Culler(const shear::BrickVolume& volume, const view::Vec3& spacing, std::int64_t block_edge, int side)
     : volume_(volume),
       spacing_(spacing),
-      settings_(settings),
-      directions_(settings.side),
-      store_(BlockGrid(volume.cube(), settings.block_edge), directions_) {
+      directions_(side),
+      store_(BlockGrid(volume.cube(), block_edge), directions_) {
     base::check(volume.box() == volume::whole(volume.cube()), "the volume is the whole cube");
 }
 
-std::int64_t Culler::prepare(const view::TransferFunction& tf, int level, base::Workers& workers) {
+std::int64_t Culler::prepare(const view::TransferFunction& tf, Kind kind, int level, base::Workers& workers) {
     std::int64_t computed = 0;
     for (const Member& member : members_of(tf)) {
         const auto rung = rung_below(member.height);
-        if (rung && !store_.has({member.basis, *rung, level})) {
-            const FunctionKey key{member.basis, *rung, level};
+        if (!rung) {
+            continue;
+        }
+        const FunctionKey key{footprint_of(kind), member.basis, *rung, level};
+        if (!store_.has(key)) {
             store_.put(key, std::make_shared<FunctionTable>(functions_of(
                                 volume_, key, store_.grid(), directions_, false, spacing_, workers)));
             computed += static_cast<std::int64_t>(store_.grid().size());
@@ -48,10 +52,9 @@ std::int64_t Culler::prepare(const view::TransferFunction& tf, int level, base::
 }
 
 VisibleBlocks Culler::visible(const view::Factorisation& factorisation, const view::TransferFunction& tf,
-                              base::Workers& workers) {
-    const BlockRates rates = store_.rates(tf, factorisation.level());
-    return {store_.grid(),
-            visible_blocks(factorisation, store_.grid(), rates, -std::log1p(-settings_.threshold), workers)};
+                              const Settings& settings, base::Workers& workers) {
+    const BlockRates rates = store_.rates(tf, footprint_of(settings.kind), factorisation.level());
+    return {store_.grid(), visible_blocks(factorisation, store_.grid(), rates, settings, workers)};
 }
 
 }  // namespace shearwater::culling

@@ -89,4 +89,40 @@ void FunctionBuilder::build(const BlockCells& cells, std::span<std::uint8_t> cod
     }
 }
 
+FunctionTable block_functions(const Cells& cells, const BlockGrid& grid, const volume::Box& box,
+                              const DirectionGrid& directions, base::Workers& workers,
+                              const std::stop_token& stop) {
+    FunctionTable table{.blocks = grid.blocks_of(box), .side = directions.side(), .codes = {}};
+    const std::size_t count = table.block_count();
+    const auto sides = static_cast<std::size_t>(directions.cells());
+    table.codes.assign(count * sides, 0);
+    const std::int64_t edge = grid.edge() / cells.voxels;
+    const volume::Index3 counts{table.blocks.cells(0), table.blocks.cells(1), table.blocks.cells(2)};
+    const bool all = workers.for_each(
+        counts[1] * counts[2],
+        [&](std::int64_t row) {
+            FunctionBuilder builder(directions);
+            std::vector<std::uint8_t> codes(sides);
+            for (std::int64_t x = 0; x < counts[0]; ++x) {
+                const volume::Index3 at{x, row % counts[1], row / counts[1]};
+                volume::Box block;
+                bool any = edge > 0;
+                for (std::size_t a = 0; a < 3; ++a) {
+                    block.lo[a] = std::max((table.blocks.lo[a] + at[a]) * edge, cells.box.lo[a]);
+                    block.hi[a] = std::min((table.blocks.lo[a] + at[a] + 1) * edge, cells.box.hi[a]);
+                    any = any && block.lo[a] < block.hi[a];
+                }
+                if (any) {
+                    builder.build(BlockCells(cells, block), codes);
+                    for (std::size_t side = 0; side < sides; ++side) {
+                        table.codes[side * count + static_cast<std::size_t>(row * counts[0] + x)] =
+                            codes[side];
+                    }
+                }
+            }
+        },
+        stop);
+    return all ? table : FunctionTable{};
+}
+
 }  // namespace shearwater::culling

@@ -1,15 +1,19 @@
 #pragma once
-// Optimised plenoptic opacity functions of blocks (POF 3.1, OPOF 4): for each cell of directions a rate that
-// no line of them falls below, taken over the samples that it has in the block. Whatever a ray's thickness D
-// in the block is, its optical depth there is at least the rate times D: nothing is linearised.
+// Opacity functions of blocks (POF 3.1, OPOF 4): for each cell of directions a rate that no line of them
+// falls below, taken over the samples that it has in the block. Whatever a ray's thickness D in the block is,
+// its optical depth there is at least the rate times D.
 
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <vector>
 
+#include "common/base/workers.h"
+#include "common/culling/block_grid.h"
 #include "common/culling/direction_grid.h"
+#include "common/culling/function_table.h"
 #include "renderer/culling/block_cells.h"
 #include "renderer/culling/sheaf.h"
 
@@ -38,5 +42,10 @@ class FunctionBuilder {
     Certifier certifier_;
     std::int64_t searches_ = 0;
 };
+
+// Of all blocks that a sub-volume has a part of. Empty if stopped before.
+FunctionTable block_functions(const Cells& cells, const BlockGrid& grid, const volume::Box& box,
+                              const DirectionGrid& directions, base::Workers& workers,
+                              const std::stop_token& stop = {});
 
 }  // namespace shearwater::culling

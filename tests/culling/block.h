@@ -26,7 +26,10 @@ struct Block {
         : volume(of), table(tf, of.mapping().levels()), box(part) {}
 
     const shear::CodeVolume& nodes() const { return volume.level(0); }
-    BlockCells cells() const { return {nodes(), box, LeastExtinctions(table, volume.mapping().bits, 1)}; }
+    BlockCells cells() const {
+        const LeastExtinctions extinctions(table, volume.mapping().bits, 1);
+        return {cells_of_nodes(nodes(), 0, volume.box(), volume.cube(), extinctions), box};
+    }
 
     double code(const volume::Index3& p) const {
         return volume.mapping().bits == 8 ? nodes().codes<std::uint8_t>()[nodes().offset(p)]

@@ -27,12 +27,12 @@ struct Pictures {
 
 // One view with and without.
 Pictures compare(const shear::BrickVolume& volume, Culler& culler, const view::TransferFunction& tf,
-                 const Camera& camera, const ImageSize& size, const view::Lattice& lattice,
-                 const view::Sampling& sampling, base::Workers& workers) {
+                 const Settings& settings, const Camera& camera, const ImageSize& size,
+                 const view::Lattice& lattice, const view::Sampling& sampling, base::Workers& workers) {
     const Factorisation f = view::factorise(camera, size, lattice, sampling);
     const auto classification = shear::classify(volume, tf, f.classify, workers);
-    culler.prepare(tf, f.level(), workers);
-    const VisibleBlocks visible = culler.visible(f, tf, workers);
+    culler.prepare(tf, settings.kind, f.level(), workers);
+    const VisibleBlocks visible = culler.visible(f, tf, settings, workers);
     Pictures pictures{};
     const auto draw = [&](const VisibleBlocks* blocks, shear::RenderStats& stats) {
         const auto windows = shear::render(volume, classification, f, workers, &stats, {}, blocks);
@@ -86,38 +86,40 @@ view::TransferFunction function_at_random(std::mt19937& random) {
     return tf;
 }
 
-void expect_no_difference(test::FloatCube& cube, int pictures, unsigned seed, double threshold,
-                          double bound) {
+void expect_no_difference(test::FloatCube& cube, int pictures, unsigned seed, const Settings& settings,
+                          double bound, int side = DirectionGrid::default_side) {
     base::Workers workers(2);
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> share(0, 1);
     std::uint64_t culled = 0, opaque = 0;
     const auto volume = test::bricks_of(cube, workers);
     const view::Lattice lattice{.n = cube.n(), .spacing = {1, 1, 1}};
-    Culler culler(volume, lattice.spacing, {.threshold = threshold});
+    Culler culler(volume, lattice.spacing, BlockGrid::default_edge, side);
     for (int n = 0; n < pictures; ++n) {
         const auto tf = function_at_random(random);
         const Camera camera = camera_at_random(random, lattice);
         const auto quality = share(random) < 0.2   ? view::Quality::high
                              : share(random) < 0.3 ? view::Quality::draft
                                                    : view::Quality::normal;
-        const auto p = compare(volume, culler, tf, camera, {96, 80}, lattice,
+        const auto p = compare(volume, culler, tf, settings, camera, {96, 80}, lattice,
                                view::sampling(quality, share(random) < 0.3), workers);
         EXPECT_LE(p.difference, bound) << seed << ", " << n;
         culled += p.with.bricks_culled;
         opaque += p.with.bricks_total - p.with.bricks_empty;
     }
     std::cout << 100.0 * static_cast<double>(culled) / static_cast<double>(opaque) << " % culled\n";
-    EXPECT_GT(culled, 0U);
+    EXPECT_TRUE(culled > 0 || settings.kind == Kind::pof);
 }
 
 TEST(Culling, ChangesNoPicture) {
-    test::FloatCube waves = shells({150, 130, 140});
-    expect_no_difference(waves, 20, 1, 1 - 1.0 / 510, 1.0 / 255);
-    test::FloatCube noise = test::noise_cube({150, 130, 140});
-    expect_no_difference(noise, 20, 2, 1 - 1.0 / 510, 1.0 / 255);
-    expect_no_difference(noise, 10, 3, 0.95, 0.05);
-    expect_no_difference(waves, 10, 4, 0.95, 0.05);
+    test::FloatCube waves = shells({110, 90, 101});
+    test::FloatCube noise = test::noise_cube({110, 90, 101});
+    for (const Kind kind : {Kind::opof, Kind::opof_linear, Kind::pof}) {
+        expect_no_difference(waves, 6, 1, {.kind = kind}, 1.0 / 255, 12);
+        expect_no_difference(noise, 6, 2, {.kind = kind}, 1.0 / 255, 12);
+        expect_no_difference(noise, 6, 3, {.kind = kind, .threshold = 0.95}, 0.05, 12);
+    }
+    expect_no_difference(waves, 6, 4, {.kind = Kind::opof, .threshold = 0.95}, 0.05);
 }
 
 }  // namespace

@@ -1,0 +1,35 @@
+#pragma once
+// How a person wants hidden blocks to be left out.
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "common/base/result.h"
+#include "common/culling/block_grid.h"
+
+namespace shearwater::culling {
+
+enum class Kind {
+    off,
+    pof,          // by the least opacity of a block's footprint (POF 3.1)
+    opof_linear,  // by the least ratio of opacity to thickness (OPOF 4)
+    opof,         // by the least optical depth to thickness
+};
+// In the order of Kind.
+inline constexpr std::array<std::string_view, 4> kind_names{"off", "pof", "opof-linear", "opof"};
+
+struct Settings {
+    Kind kind = Kind::off;
+    // The opacity that every ray has to have before a block for that not to be seen. This leaves out less
+    // than half a level of 255.
+    double threshold = default_threshold;
+
+    static constexpr double default_threshold = 1 - 1.0 / 510;
+    bool operator==(const Settings&) const = default;
+};
+
+// A kind that there is, and a threshold of 0.5 to less than 1.
+base::Status validate(const Settings& settings);
+
+}  // namespace shearwater::culling
