@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "common/culling/settings.h"
 #include "common/image/image.h"
 #include "common/image/over_windows.h"
 #include "common/view/bands.h"
@@ -45,6 +46,7 @@ struct View {
     std::optional<bool> level_of_detail;  // else as the server has it
     bool sketch = false;                  // before the cube is loaded, pictures of a sketch are welcome
     view::Classify classify = view::Classify::post;
+    culling::Settings culling;
 };
 pb::SetView to_wire(const View& view);
 Parsed<View> view_from(const pb::SetView& view);

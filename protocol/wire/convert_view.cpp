@@ -298,6 +298,10 @@ pb::SetView to_wire(const View& view) {
     }
     to.set_sketch(view.sketch);
     to.set_classification(to_wire(view.classify));
+    if (view.culling != culling::Settings()) {
+        to.mutable_culling()->set_kind(static_cast<pb::CullingKind>(view.culling.kind));
+        to.mutable_culling()->set_threshold(view.culling.threshold);
+    }
     return to;
 }
 
@@ -327,6 +331,13 @@ Parsed<View> view_from(const pb::SetView& view) {
     if (!classify) {
         return classify.error();
     }
+    culling::Settings culling;
+    if (view.has_culling()) {
+        culling = {static_cast<culling::Kind>(view.culling().kind()), view.culling().threshold()};
+    }
+    if (const auto status = culling::validate(culling); !status) {
+        return invalid(status.error());
+    }
     return View{.revision = view.revision(),
                 .camera = *camera,
                 .size = size,
@@ -335,7 +346,8 @@ Parsed<View> view_from(const pb::SetView& view) {
                 .deflate = view.deflate(),
                 .level_of_detail = view.has_exact() ? std::optional(!view.exact()) : std::nullopt,
                 .sketch = view.sketch(),
-                .classify = *classify};
+                .classify = *classify,
+                .culling = culling};
 }
 
 }  // namespace shearwater::wire

@@ -62,6 +62,11 @@ template <>
 constexpr Type type<pb::Windows>{39, {mib, 1024 * mib}};  // spans of Factorisation::max_area pixels
 
 template <>
+constexpr Type type<pb::WantFunctions>{40, {4 * mib, 0}};
+template <>
+constexpr Type type<pb::Functions>{41, {mib, 16 * mib}};
+
+template <>
 constexpr Type type<pb::CubeDescription>{64, {mib, 0}};
 template <>
 constexpr Type type<pb::TreeState>{65, {4 * mib, 0}};

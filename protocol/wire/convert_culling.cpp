@@ -1,0 +1,140 @@
+#include "protocol/wire/convert_culling.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/check.h"
+#include "common/volume/levels.h"
+#include "protocol/wire/convert.h"
+#include "protocol/wire/convert_fields.h"
+
+namespace shearwater::wire {
+
+pb::FunctionKey to_wire(const culling::FunctionKey& key) {
+    pb::FunctionKey to;
+    to.set_footprint(key.footprint == culling::Footprint::column ? pb::FOOTPRINT_COLUMN
+                                                                 : pb::FOOTPRINT_BLOCK);
+    *to.mutable_basis() = to_wire(culling::at_height(key.basis, 1));
+    to.set_rung(static_cast<std::uint32_t>(key.rung));
+    to.set_level(static_cast<std::uint32_t>(key.level));
+    return to;
+}
+
+Parsed<culling::FunctionKey> function_key_from(const pb::FunctionKey& key) {
+    if (!pb::Footprint_IsValid(key.footprint())) {
+        return invalid("function_key.footprint: an unknown one");
+    }
+    const auto basis = transfer_function_from(key.basis());
+    if (!basis) {
+        return basis.error();
+    }
+    auto members = culling::members_of(*basis);
+    if (members.size() != 1 || std::abs(members[0].height - 1) > 1e-9) {
+        return invalid("function_key.basis: one pin of height 1 is wanted");
+    }
+    if (key.rung() >= culling::ladder.size()) {
+        return invalid("function_key.rung: the ladder has no such rung");
+    }
+    if (key.level() > volume::max_level) {
+        return invalid("function_key.level: there is no such level");
+    }
+    return culling::FunctionKey{.footprint = key.footprint() == pb::FOOTPRINT_COLUMN
+                                                 ? culling::Footprint::column
+                                                 : culling::Footprint::block,
+                                .basis = std::move(members[0].basis),
+                                .rung = static_cast<int>(key.rung()),
+                                .level = static_cast<int>(key.level())};
+}
+
+void put(const culling::VisibleBlocks& visible, pb::Render& render) {
+    base::check(visible.blocks.size() <= most_blocks, "a frame's request has room for its blocks");
+    std::string& bits = *render.mutable_visible();
+    bits.assign((visible.blocks.size() + 7) / 8, 0);
+    for (std::size_t block = 0; block < visible.blocks.size(); ++block) {
+        if (visible.blocks.contains(block)) {
+            bits[block / 8] = static_cast<char>(bits[block / 8] | 1 << block % 8);
+        }
+    }
+    render.set_block_edge(static_cast<std::uint32_t>(visible.grid.edge()));
+}
+
+Parsed<std::optional<culling::VisibleBlocks>> visible_from(const pb::Render& render,
+                                                           const volume::Index3& n) {
+    if (render.block_edge() == 0) {
+        return std::optional<culling::VisibleBlocks>();
+    }
+    if (render.block_edge() != 16 && render.block_edge() != 32) {
+        return invalid("render.block_edge: 16 or 32 is wanted");
+    }
+    culling::VisibleBlocks visible{culling::BlockGrid(n, render.block_edge()), {}};
+    if (visible.grid.size() > most_blocks || render.visible().size() != (visible.grid.size() + 7) / 8) {
+        return invalid("render.visible: a bit for each block is wanted");
+    }
+    visible.blocks = culling::BlockSet(visible.grid.size());
+    for (std::size_t block = 0; block < visible.grid.size(); ++block) {
+        const auto bits = static_cast<unsigned char>(render.visible()[block / 8]);
+        visible.blocks.bytes()[block] = static_cast<std::uint8_t>(bits >> block % 8 & 1U);
+    }
+    return std::optional(std::move(visible));
+}
+
+std::vector<Message> functions_messages(std::uint64_t number, int place, bool coarse,
+                                        const culling::FunctionTable& table) {
+    const std::size_t count = table.block_count();
+    const std::size_t all = table.codes.size() / count;
+    const std::size_t at_once = std::max<std::size_t>(most_codes / count, 1);
+    std::vector<Message> messages;
+    for (std::size_t first = 0; first < all; first += at_once) {
+        const std::size_t directions = std::min(at_once, all - first);
+        pb::Functions part;
+        part.set_number(number);
+        part.set_place(static_cast<std::uint32_t>(place));
+        part.set_coarse(coarse);
+        *part.mutable_blocks() = to_wire(table.blocks);
+        part.set_side(static_cast<std::uint32_t>(table.side));
+        part.set_first_direction(static_cast<std::uint32_t>(first));
+        part.set_directions(static_cast<std::uint32_t>(directions));
+        messages.push_back(
+            message(std::move(part),
+                    std::as_bytes(std::span(table.codes).subspan(first * count, directions * count))));
+    }
+    return messages;
+}
+
+Parsed<FunctionPart> functions_from(const Message& message) {
+    constexpr std::uint32_t most_side = 360;
+    const auto& body = std::get<pb::Functions>(message.body);
+    const auto blocks = box_from(body.blocks());
+    if (!blocks) {
+        return blocks.error();
+    }
+    std::uint64_t count = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        count *= static_cast<std::uint64_t>(blocks->cells(axis));
+        if (count == 0 || count > most_blocks) {
+            return invalid("functions.blocks: some are wanted, and not too many");
+        }
+    }
+    const std::uint32_t side = body.side();
+    if (side == 0 || side % 4 != 0 || side > most_side) {
+        return invalid("functions.side: a direction grid's is wanted");
+    }
+    const std::uint32_t all = side * side / 2;
+    if (body.directions() == 0 || body.first_direction() >= all ||
+        body.directions() > all - body.first_direction()) {
+        return invalid("functions.directions: some of the grid's are wanted");
+    }
+    if (message.payload_size() != count * body.directions()) {
+        return invalid("functions: a byte for each block and direction is wanted");
+    }
+    return FunctionPart{.number = body.number(),
+                        .place = static_cast<int>(body.place()),
+                        .coarse = body.coarse(),
+                        .blocks = *blocks,
+                        .side = static_cast<int>(side),
+                        .first_direction = static_cast<int>(body.first_direction()),
+                        .directions = static_cast<int>(body.directions()),
+                        .codes = *message.payload};
+}
+
+}  // namespace shearwater::wire

@@ -1,0 +1,40 @@
+#pragma once
+// Of opacity functions, and what they hide.
+
+#include <optional>
+
+#include "common/culling/block_grid.h"
+#include "common/culling/function_store.h"
+#include "protocol/wire/header.h"
+
+namespace shearwater::wire {
+
+// More blocks than this are all drawn: a frame's request has no room for them.
+inline constexpr std::size_t most_blocks = std::size_t{3} << 19;
+// Of bytes that travel at once.
+inline constexpr std::size_t most_codes = std::size_t{8} << 20;
+
+pb::FunctionKey to_wire(const culling::FunctionKey& key);
+Parsed<culling::FunctionKey> function_key_from(const pb::FunctionKey& key);
+
+// What is visible, into a frame's request; and out of it, for a cube of n voxels, if it says.
+void put(const culling::VisibleBlocks& visible, pb::Render& render);
+Parsed<std::optional<culling::VisibleBlocks>> visible_from(const pb::Render& render, const volume::Index3& n);
+
+// A table in as many messages as it takes.
+std::vector<Message> functions_messages(std::uint64_t number, int place, bool coarse,
+                                        const culling::FunctionTable& table);
+// Which part of a table a message has: whole directions, of as many blocks and of a grid that keeps its
+// limits.
+struct FunctionPart {
+    std::uint64_t number = 0;
+    int place = 0;
+    bool coarse = false;
+    volume::Box blocks;
+    int side = 0;
+    int first_direction = 0, directions = 0;
+    std::span<const std::byte> codes;
+};
+Parsed<FunctionPart> functions_from(const Message& message);
+
+}  // namespace shearwater::wire

@@ -1,0 +1,147 @@
+// Pictures of a cube that several sub-volumes find the functions of.
+
+#include "common/culling/merge.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "common/culling/rates.h"
+#include "renderer/culling/culler.h"
+#include "tests/culling/block.h"
+#include "tests/support/reference_cubes.h"
+
+namespace shearwater::culling {
+namespace {
+
+using volume::Box;
+using volume::Index3;
+
+const Index3 n{97, 70, 65};
+// Cuts within blocks and on their borders, along every axis.
+const std::vector<Box> cut{{{0, 0, 0}, {45, 69, 64}},
+                           {{45, 0, 0}, {96, 32, 64}},
+                           {{45, 32, 0}, {96, 69, 21}},
+                           {{45, 32, 21}, {96, 69, 64}}};
+
+FunctionTable of(test::FloatCube& cube, const std::vector<Box>& boxes, const FunctionKey& key, bool octants) {
+    base::Workers workers(2);
+    const BlockGrid grid(cube.n());
+    const DirectionGrid directions(12);
+    std::vector<SubVolume> parts;
+    for (const Box& box : boxes) {
+        const auto volume = test::bricks_of(cube, box, workers);
+        parts.push_back({box,
+                         std::make_shared<FunctionTable>(
+                             functions_of(volume, key, grid, directions, octants, {1, 1, 1}, workers)),
+                         octants ? 4 : std::int64_t{1} << key.level});
+    }
+    return merged(grid, directions, key.footprint, parts);
+}
+
+// No sub-volumes together say more than one that has it all, nor much less where all is alike.
+TEST(Merge, OfPartsSaysNoMoreThanTheWhole) {
+    test::FloatCube noise = test::noise_cube(n);
+    const auto member = members_of(ramp(0.1, 0.1, 0.9, 0.4)).at(0);
+    for (const Footprint footprint : {Footprint::column, Footprint::block}) {
+        for (const bool octants : {false, true}) {
+            const FunctionKey key{footprint, member.basis, 1, 0};
+            const FunctionTable whole = of(noise, {volume::whole(n)}, key, octants);
+            const FunctionTable parts = of(noise, cut, key, octants);
+            ASSERT_EQ(whole.codes.size(), parts.codes.size());
+            for (std::size_t i = 0; i < whole.codes.size(); ++i) {
+                // Rounded once more.
+                ASSERT_LE(parts.codes[i], whole.codes[i] + (footprint == Footprint::block ? 0 : 1)) << i;
+            }
+        }
+    }
+}
+
+// Blocks at a cut lose what their lines have on its other side; the others nothing.
+TEST(Merge, LosesLittleAtCuts) {
+    const Index3 many{193, 65, 65};
+    test::FloatCube even(many, [](double, double, double) { return 0.5F; });
+    const auto member = members_of(ramp(0, 0.1, 1, 0.1)).at(0);
+    const FunctionKey key{Footprint::column, member.basis, 1, 0};
+    const FunctionTable whole = of(even, {volume::whole(many)}, key, false);
+    const FunctionTable parts =
+        of(even, {{{0, 0, 0}, {90, 64, 64}}, {{90, 0, 0}, {192, 64, 64}}}, key, false);
+    const BlockGrid grid(many);
+    double lost = 0, all = 0;
+    for (std::size_t i = 0; i < whole.codes.size(); ++i) {
+        const double here = rate_of(whole.codes[i]) - rate_of(parts.codes[i]);
+        const std::int64_t x = grid.at(i % grid.size())[0];
+        if (x == 2) {
+            all += rate_of(whole.codes[i]);
+            lost += here;
+        } else if (x < 1 || x > 3) {
+            EXPECT_EQ(here, 0);
+        }
+    }
+    EXPECT_LT(lost, 0.7 * all);
+}
+
+// What nobody has said has no opacity: neither a sub-volume that is not there, nor cells across a cut.
+TEST(Merge, OfSomeIsClearElsewhere) {
+    test::FloatCube even(n, [](double, double, double) { return 0.5F; });
+    const auto member = members_of(ramp(0, 0.1, 1, 0.1)).at(0);
+    for (const Footprint footprint : {Footprint::column, Footprint::block}) {
+        const FunctionTable some = of(even, {cut[0]}, {footprint, member.basis, 1, 0}, false);
+        const BlockGrid grid(n);
+        int found = 0;
+        for (std::size_t block = 0; block < grid.size(); ++block) {
+            const bool there = grid.at(block)[0] <= 1;  // in part
+            for (std::size_t direction = 0; direction < 72; ++direction) {
+                const bool opaque = some.codes[direction * grid.size() + block] > 0;
+                EXPECT_TRUE(there || !opaque) << block;
+                found += opaque ? 1 : 0;
+            }
+        }
+        EXPECT_GT(found, 50);
+    }
+}
+
+TEST(Family, RatesOfPinsApartAddUp) {
+    const std::vector<Member> members =
+        members_of({.opacity_pins = {view::Hat{0.2, 0, 0.2, 0.5}, view::Hat{0.5, 0, 0.3, 0.5},
+                                     view::Hat{0.3, 0, 0.3, 0.5}, view::Flat{0.001}},
+                    .colour_pins = {{0, {1, 1, 1}}},
+                    .background = {}});
+    const Combination combination(members);
+    EXPECT_FLOAT_EQ(combination(std::vector{1.0F, 2.0F, 2.5F, 0.1F}), 3.0F);
+    EXPECT_FLOAT_EQ(combination(std::vector{1.0F, 2.0F, 3.5F, 0.1F}), 3.5F);
+    EXPECT_FLOAT_EQ(combination(std::vector{1.0F, 2.0F, 3.5F, 9.0F}), 9.0F);
+}
+
+// The bound, at every value and for every height: rungs below a height, and sums of pins apart below the
+// transfer function.
+TEST(Family, IsBelowTheTransferFunction) {
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> share(0, 1);
+    for (int trial = 0; trial < 200; ++trial) {
+        view::TransferFunction tf{.opacity_pins = {}, .colour_pins = {{0, {1, 1, 1}}}, .background = {}};
+        for (int pin = 0; pin < 4; ++pin) {
+            tf.opacity_pins.push_back(view::Hat{share(random), 0.1 * share(random), 0.1 + 0.3 * share(random),
+                                                0.002 + 0.99 * share(random)});
+        }
+        tf.opacity_pins.push_back(
+            view::Ramp{0.5 * share(random), 0, 0.6 + 0.3 * share(random), share(random)});
+        tf.opacity_pins.push_back(view::Blank{0.3, 0.3 + 0.1 * share(random)});
+        const std::vector<Member> members = members_of(tf);
+        const Combination combination(members);
+        for (double s = 0; s <= 1; s += 1.0 / 256) {
+            std::vector<float> rates;
+            for (const Member& member : members) {
+                const double height = ladder[static_cast<std::size_t>(rung_below(member.height).value())];
+                const double at_rung = at_height(member.basis, height).extinction(s);
+                const double rate = at_rung / height * member.height;
+                EXPECT_LE(rate, at_height(member.basis, member.height).extinction(s) * (1 + 1e-9));
+                rates.push_back(static_cast<float>(rate));
+            }
+            EXPECT_LE(static_cast<double>(combination(rates)), tf.extinction(s) * (1 + 1e-6) + 1e-9) << s;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace shearwater::culling
