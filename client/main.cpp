@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -20,6 +21,8 @@ struct Options {
     std::string size = "1280x800";
     std::string classify = "post";
     std::string lod;
+    std::string culling = "off";
+    double culling_threshold = culling::Settings::default_threshold;
     ui::WindowOptions window;
     model::Effort effort;
 };
@@ -45,6 +48,14 @@ void declare(CLI::App& app, Options& options) {
     app.add_option("--lod", options.lod,
                    "off: every voxel counts, however small in the picture; else as the server has it")
         ->check(CLI::IsMember({"on", "off"}));
+    app.add_option("--culling", options.culling,
+                   "Leave out blocks hidden behind others, found by such functions of their opacity")
+        ->check(
+            CLI::IsMember(std::vector<std::string>(culling::kind_names.begin(), culling::kind_names.end())))
+        ->capture_default_str();
+    app.add_option("--culling-threshold", options.culling_threshold,
+                   "Opacity that hides what is behind; the default changes no picture by a level of 255")
+        ->check(CLI::Range(0.5, 0.999999));
     app.add_option("--size", options.size, "The window's size")->check(check_size)->capture_default_str();
     app.add_option("--scale", options.window.scale, "Pixels per nominal pixel; else as the display says")
         ->check(CLI::Range(0.5, 4.0));
@@ -96,6 +107,10 @@ base::Status run(Options options) {
         {.tf = std::move(*tf),
          .level_of_detail = options.lod.empty() ? std::nullopt : std::optional(options.lod == "on"),
          .classify = options.classify == "post" ? view::Classify::post : view::Classify::pre_integrated,
+         .culling = {static_cast<culling::Kind>(
+                         std::find(culling::kind_names.begin(), culling::kind_names.end(), options.culling) -
+                         culling::kind_names.begin()),
+                     options.culling_threshold},
          .effort = options.effort,
          .screenshot = options.screenshot});
     return app.run();

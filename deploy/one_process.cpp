@@ -2,11 +2,13 @@
 
 #include <chrono>
 #include <cstdio>
+#include <optional>
 
 #include "common/base/memory.h"
 #include "common/cube/open.h"
 #include "common/image/warp.h"
 #include "common/volume/statistics.h"
+#include "renderer/culling/culler.h"
 #include "renderer/shear/brick_volume.h"
 #include "renderer/shear/render.h"
 
@@ -72,7 +74,7 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     if (!mapping) {
         return mapping.error();
     }
-    const double preprocess = clock.lap();
+    double preprocess = clock.lap();
     const auto second_half = [&](double fraction) { progress(0.5 + fraction / 2); };
     const auto volume = shear::BrickVolume::load(*opened->source, volume::whole(lattice.n), lattice.n,
                                                  *mapping, workers, second_half);
@@ -84,12 +86,23 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     Picture picture;
     std::vector<Seconds> times;
     shear::Classifier classifier;
+    const culling::Settings culling = view.culling.settings();
+    std::optional<culling::Culler> culler;
+    if (culling.kind != culling::Kind::off) {
+        const auto level = view::factorise(*camera, *size, lattice, view.sampling()).level();
+        culler.emplace(*volume, lattice.spacing);
+        culler->prepare(tf, culling.kind, level, workers);
+        preprocess += clock.lap();
+    }
     for (int i = 0; i < repeat; ++i) {
         clock.lap();
         const auto factorisation = view::factorise(*camera, *size, lattice, view.sampling());
         shear::RenderStats stats;
         const auto& classification = classifier.classify(*volume, tf, factorisation.classify, workers);
-        const auto windows = shear::render(*volume, classification, factorisation, workers, &stats);
+        const auto visible =
+            culler ? std::optional(culler->visible(factorisation, tf, culling, workers)) : std::nullopt;
+        const auto windows = shear::render(*volume, classification, factorisation, workers, &stats, {},
+                                           visible ? &*visible : nullptr);
         const double render = clock.lap();
         picture.image = image::warp(factorisation, windows, *camera, *size, tf.background, workers);
         const double warp = clock.lap();
@@ -103,6 +116,7 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
         picture.samples = stats.samples;
         picture.bricks_total = stats.bricks_total;
         picture.bricks_empty = stats.bricks_empty;
+        picture.bricks_culled = stats.bricks_culled;
         picture.bricks_rendered = stats.bricks_rendered;
     }
     picture.seconds = median(times);

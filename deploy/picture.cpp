@@ -45,7 +45,7 @@ std::string to_json(const Picture& picture) {
     JsonObject(root.begin("bricks"))
         .add("total", picture.bricks_total)
         .add("empty", picture.bricks_empty)
-        .add("culled", 0)
+        .add("culled", picture.bricks_culled)
         .add("rendered", picture.bricks_rendered)
         .end();
     JsonObject(root.begin("bytes"))

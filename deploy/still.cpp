@@ -25,6 +25,7 @@ Still::Still(wire::Address server, ViewOptions options, view::TransferFunction t
     view_.quality = options_.quality_value();
     view_.level_of_detail = options_.level_of_detail();
     view_.classify = options_.classify_value();
+    view_.culling = options_.culling.settings();
 }
 
 std::vector<wire::NetEffect> Still::start(wire::Time now) {
@@ -125,6 +126,7 @@ void Still::on_frame(const wire::Message& message, wire::Time now, std::vector<w
     picture_.samples = leaves.samples();
     picture_.bricks_total = leaves.bricks_total();
     picture_.bricks_empty = leaves.bricks_empty();
+    picture_.bricks_culled = leaves.bricks_culled();
     picture_.bricks_rendered = leaves.bricks_rendered();
     picture_.window_bytes = leaves.window_bytes();
     picture_.frame_bytes = message.payload_size();

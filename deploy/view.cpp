@@ -15,6 +15,7 @@ struct Flags {
     std::string tf_file;
     std::string classify = "post";
     std::string lod;
+    CullingOptions culling;
     double target_rate = 20;
 };
 
@@ -32,6 +33,8 @@ base::Result<int> view(const Flags& flags) {
     if (!flags.lod.empty()) {
         arguments.insert(arguments.end(), {"--lod", flags.lod});
     }
+    arguments.insert(arguments.end(), {"--culling", flags.culling.kind, "--culling-threshold",
+                                       std::to_string(flags.culling.threshold)});
     arguments.insert(arguments.end(), {"--target-rate", std::to_string(flags.target_rate)});
     if (!flags.tf_file.empty()) {
         arguments.insert(arguments.end(), {"--tf", flags.tf_file});
@@ -66,6 +69,7 @@ Run add_view(CLI::App& app) {
     app.add_option("--tf", flags->tf_file, "transfer function to begin with, a TOML file");
     add_classify(app, flags->classify);
     add_lod(app, flags->lod);
+    flags->culling.add_to(app);
     app.add_option("--target-rate", flags->target_rate,
                    "frames a second to hold while the view moves, by lesser quality where need be")
         ->check(CLI::Range(1.0, 60.0))

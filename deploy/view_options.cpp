@@ -1,5 +1,6 @@
 #include "deploy/view_options.h"
 
+#include <algorithm>
 #include <charconv>
 
 #include "common/base/text_file.h"
@@ -32,6 +33,25 @@ void ViewOptions::add_to(CLI::App& app) {
         ->group(group);
     add_classify(app, classify, group);
     add_lod(app, lod, group);
+    culling.add_to(app, group);
+}
+
+void CullingOptions::add_to(CLI::App& app, const std::string& group) {
+    app.add_option("--culling", kind,
+                   "leave out blocks hidden behind others, found by such functions of their opacity")
+        ->check(
+            CLI::IsMember(std::vector<std::string>(culling::kind_names.begin(), culling::kind_names.end())))
+        ->capture_default_str()
+        ->group(group);
+    app.add_option("--culling-threshold", threshold,
+                   "opacity that hides what is behind; the default changes no picture by a level of 255")
+        ->check(CLI::Range(0.5, 0.999999))
+        ->group(group);
+}
+
+culling::Settings CullingOptions::settings() const {
+    const auto found = std::find(culling::kind_names.begin(), culling::kind_names.end(), kind);
+    return {static_cast<culling::Kind>(found - culling::kind_names.begin()), threshold};
 }
 
 void add_classify(CLI::App& app, std::string& classify, const std::string& group) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/base/result.h"
+#include "common/culling/settings.h"
 #include "common/view/camera.h"
 #include "common/view/factorisation.h"
 #include "common/view/transfer_function.h"
@@ -19,6 +20,15 @@ void add_classify(CLI::App& app, std::string& classify, const std::string& group
 // --lod on|off.
 void add_lod(CLI::App& app, std::string& lod, const std::string& group = "Options");
 
+// --culling off|pof|opof-linear|opof, --culling-threshold.
+struct CullingOptions {
+    std::string kind = "off";
+    double threshold = culling::Settings::default_threshold;
+
+    void add_to(CLI::App& app, const std::string& group = "Options");
+    culling::Settings settings() const;
+};
+
 struct ViewOptions {
     view::Orbit orbit;
     bool parallel = false;
@@ -29,6 +39,7 @@ struct ViewOptions {
     std::string quality = "normal";
     std::string classify = "post";
     std::string lod;  // "on" or "off"; empty: as the server has it
+    CullingOptions culling;
 
     void add_to(CLI::App& app);
 

@@ -268,7 +268,8 @@ void Session::send_view(wire::Time now) {
                           .deflate = deflate_,
                           .level_of_detail = wish_->level_of_detail,
                           .sketch = true,
-                          .classify = wish_->classify};
+                          .classify = wish_->classify,
+                          .culling = wish_->culling};
     effects_.push_back(wire::Send{link_, wire::message(wire::to_wire(view))});
     sent_.push_back({revision_, view.size, view.quality, now, tree_.nodes.empty() || tree_.ready});
     sent_at_ = now;

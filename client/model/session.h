@@ -18,6 +18,7 @@
 #include "client/model/pace.h"
 #include "client/model/status.h"
 #include "client/model/viewpoint.h"
+#include "common/culling/settings.h"
 #include "common/view/transfer_function.h"
 #include "protocol/wire/events.h"
 #include "protocol/wire/header.h"
@@ -31,6 +32,7 @@ struct Wish {
     view::ImageSize size;                 // at most what view::validate allows
     std::optional<bool> level_of_detail;  // else as the server has it
     view::Classify classify = view::Classify::post;
+    culling::Settings culling;
     bool operator==(const Wish&) const = default;
 };
 

@@ -44,6 +44,7 @@ App::App(Window& window, Network& network, AppOptions options)
     desk_.wish.tf = options_.tf;
     desk_.wish.level_of_detail = options_.level_of_detail;
     desk_.wish.classify = options_.classify;
+    desk_.wish.culling = options_.culling;
     desk_.effort = options_.effort;
     desk_.status.words = "Starting ...";
 }

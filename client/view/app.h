@@ -13,6 +13,7 @@ struct AppOptions {
     view::TransferFunction tf = view::default_transfer_function();
     std::optional<bool> level_of_detail;
     view::Classify classify = view::Classify::post;
+    culling::Settings culling;
     model::Effort effort;
     std::string screenshot;  // a file to write the window to once a whole high picture is seen; then it ends
 };

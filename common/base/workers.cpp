@@ -1,5 +1,8 @@
 #include "common/base/workers.h"
 
+#include <pthread.h>
+#include <sched.h>
+
 #include <algorithm>
 #include <atomic>
 
@@ -22,12 +25,23 @@ struct Workers::Loop {
     }
 };
 
-Workers::Workers(int threads) {
+void run_when_idle() {
+    const sched_param none{};
+    // Only advice: where it is not taken, the thread competes.
+    static_cast<void>(pthread_setschedparam(pthread_self(), SCHED_IDLE, &none));
+}
+
+Workers::Workers(int threads, Priority priority) {
     if (threads <= 0) {
         threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     }
     for (int i = 1; i < threads; ++i) {
-        threads_.emplace_back([this] { work(); });
+        threads_.emplace_back([this, priority] {
+            if (priority == Priority::idle) {
+                run_when_idle();
+            }
+            work();
+        });
     }
 }
 

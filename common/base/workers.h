@@ -11,10 +11,16 @@
 
 namespace shearwater::base {
 
+// Lets the calling thread run only where no other wants the processor.
+void run_when_idle();
+
 class Workers {
   public:
+    // Idle: the threads, but not the caller's own, run where nobody else wants the processor.
+    enum class Priority { normal, idle };
+
     // `threads` counts the caller's own: Workers(1) starts none. 0 means one per processor.
-    explicit Workers(int threads = 0);
+    explicit Workers(int threads = 0, Priority priority = Priority::normal);
     ~Workers();
     Workers(const Workers&) = delete;
     Workers& operator=(const Workers&) = delete;

@@ -25,6 +25,11 @@ void FunctionStore::put(const FunctionKey& key, std::shared_ptr<const FunctionTa
     tables_.emplace_back(key, std::move(table));
 }
 
+void FunctionStore::erase(const FunctionKey& key) {
+    combined_.reset();
+    std::erase_if(tables_, [&](const auto& table) { return table.first == key; });
+}
+
 std::shared_ptr<const FunctionTable> FunctionStore::find(const FunctionKey& key) const {
     for (const auto& [there, table] : tables_) {
         if (there == key) {

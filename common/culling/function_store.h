@@ -37,6 +37,7 @@ class FunctionStore {
 
     // A table of the whole grid; in the place of one that was there.
     void put(const FunctionKey& key, std::shared_ptr<const FunctionTable> table);
+    void erase(const FunctionKey& key);
     bool has(const FunctionKey& key) const { return find(key) != nullptr; }
 
     // Of a transfer function on a level, by what is there now: a member without a table at its rung or below

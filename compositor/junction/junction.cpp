@@ -55,6 +55,9 @@ Effects Junction::handle(const wire::NetEvent& event, wire::Time now) {
             send_histogram(counted, effects);
         }
     }
+    for (wire::Message& functions : branch_.take_functions()) {
+        member_.tell_parent(std::move(functions), effects.net);
+    }
     for (node::MergeJob& job : branch_.take_complete()) {
         effects.merges.push_back({std::move(job)});
     }
@@ -94,6 +97,8 @@ void Junction::on_parent_message(const wire::Received& received, wire::Time now,
         branch_.begin(*factorisation, *render, now, effects.net);
     } else if (const auto* cancel = std::get_if<pb::Cancel>(&message.body)) {
         branch_.cancel(cancel->frame(), effects.net);
+    } else if (std::holds_alternative<pb::WantFunctions>(message.body)) {
+        branch_.want_functions(message, effects.net);
     } else if (std::holds_alternative<pb::SetMapping>(message.body)) {
         branch_.tell_children(message, effects.net);
     } else if (std::holds_alternative<pb::Voxels>(message.body)) {

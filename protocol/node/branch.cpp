@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/base/check.h"
+#include "protocol/wire/convert_culling.h"
 
 namespace shearwater::node {
 
@@ -29,6 +30,7 @@ void Branch::configure(std::uint64_t epoch, const std::vector<ChildSpec>& specs,
         return;
     }
     cancel_all(effects);
+    wanted_.reset();
     for (const Child& old : children_) {
         if (old.link) {
             effects.push_back(wire::CloseLink{*old.link, wire::pb::REASON_REPLACED, "the tree has changed"});
@@ -62,6 +64,9 @@ int Branch::adopt(wire::LinkId link, const wire::pb::Adopt& adopt, std::vector<N
             wire::CloseLink{old, wire::pb::REASON_REPLACED, "the child has come back on a new link"});
     }
     found->link = link;
+    if (wanted_) {
+        effects.push_back(wire::Send{link, *wanted_});
+    }
     return found->spec.place;
 }
 
@@ -212,6 +217,12 @@ std::optional<wire::pb::NeedVoxels> Branch::receive(wire::LinkId link, const wir
         on_windows(*child, message, effects);
     } else if (const auto* report = std::get_if<wire::pb::HistogramReport>(&message.body)) {
         on_histogram(index_of(*child), *report, effects);
+    } else if (std::holds_alternative<wire::pb::Functions>(message.body)) {
+        if (const auto part = wire::functions_from(message)) {
+            functions_.push_back(message);
+        } else {
+            fault(link, part.error(), effects);
+        }
     } else if (const auto* need = std::get_if<wire::pb::NeedVoxels>(&message.body)) {
         const auto box = wire::box_from(need->box());
         if (!box || !child->spec.reads.contains(*box)) {
@@ -304,6 +315,11 @@ void Branch::tell_children(const wire::Message& message, std::vector<NetEffect>&
             effects.push_back(wire::Send{*child.link, message});
         }
     }
+}
+
+void Branch::want_functions(const wire::Message& wanted, std::vector<NetEffect>& effects) {
+    wanted_ = wanted;
+    tell_children(wanted, effects);
 }
 
 void Branch::deliver_voxels(const wire::Message& voxels, std::vector<NetEffect>& effects) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "common/view/factorisation.h"
@@ -45,8 +46,8 @@ class Branch {
     void cancel_all(std::vector<wire::NetEffect>& effects);
     bool pending(std::uint64_t frame) const { return pending_.contains(frame); }
 
-    // A child's Windows, HistogramReport, NeedVoxels. Returns a request for voxels that must go on up
-    // (or be served here), if that is what it was. A faulty message closes the child's link.
+    // A child's Windows, HistogramReport, Functions, NeedVoxels. Returns a request for voxels that must go on
+    // up (or be served here), if that is what it was. A faulty message closes the child's link.
     std::optional<wire::pb::NeedVoxels> receive(wire::LinkId link, const wire::Message& message,
                                                 std::vector<wire::NetEffect>& effects);
     // Forgets the link; its child's share of pending frames is missing.
@@ -66,6 +67,10 @@ class Branch {
 
     // Passes a message down to every child, or voxels to the child that asked for them.
     void tell_children(const wire::Message& message, std::vector<wire::NetEffect>& effects) const;
+    // What functions are wanted: of every child, and of whoever takes its place.
+    void want_functions(const wire::Message& wanted, std::vector<wire::NetEffect>& effects);
+    // Those that have come since: pb::Functions, sound.
+    std::vector<wire::Message> take_functions() { return std::exchange(functions_, {}); }
     void deliver_voxels(const wire::Message& voxels, std::vector<wire::NetEffect>& effects);
     // What children have asked for and not been given: to be asked again of another parent, or of one that
     // was not there yet.
@@ -118,6 +123,8 @@ class Branch {
     };
     std::map<int, VoxelRoute> voxel_routes_;  // by the asking renderer's place
     std::array<bool, 2> histogram_news_{};    // by Counted
+    std::optional<wire::Message> wanted_;     // pb::WantFunctions
+    std::vector<wire::Message> functions_;
 };
 
 }  // namespace shearwater::node

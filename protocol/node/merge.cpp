@@ -81,6 +81,7 @@ void add(const wire::pb::LeafStats& part, wire::pb::LeafStats& sum) {
     sum.set_bricks_total(sum.bricks_total() + part.bricks_total());
     sum.set_bricks_empty(sum.bricks_empty() + part.bricks_empty());
     sum.set_bricks_rendered(sum.bricks_rendered() + part.bricks_rendered());
+    sum.set_bricks_culled(sum.bricks_culled() + part.bricks_culled());
     sum.set_window_bytes(sum.window_bytes() + part.window_bytes());
 }
 

@@ -10,12 +10,18 @@
 #include "common/cube/open.h"
 #include "common/volume/statistics.h"
 #include "protocol/node/merge.h"
+#include "renderer/culling/culler.h"
 #include "renderer/shear/render.h"
 
 namespace shearwater::jobs {
 
 Jobs::Jobs(int threads, std::function<void(leaf::JobEvent)> tell)
-    : tell_(std::move(tell)), loaders_(threads), drawers_(threads) {}
+    : tell_(std::move(tell)),
+      loaders_(threads),
+      drawers_(threads),
+      finders_(threads, base::Workers::Priority::idle) {
+    boost::asio::post(finding_, [] { base::run_when_idle(); });
+}
 
 Jobs::~Jobs() {
     {
@@ -26,6 +32,7 @@ Jobs::~Jobs() {
     }
     loading_.join();
     drawing_.join();
+    finding_.join();
 }
 
 std::stop_token Jobs::begin(leaf::Job job) {
@@ -60,6 +67,11 @@ void Jobs::perform(leaf::Effect effect) {
             load(job, stop);
             end(job.job);
         });
+    } else if (auto* finding = std::get_if<leaf::Find>(&effect)) {
+        boost::asio::post(finding_, [this, job = std::move(*finding), stop = begin(finding->job)] {
+            find(job, stop);
+            end(job.job);
+        });
     } else if (auto* drawing = std::get_if<leaf::Draw>(&effect)) {
         boost::asio::post(drawing_, [this, job = std::move(*drawing), stop = begin(drawing->job)] {
             draw(job, stop);
@@ -89,6 +101,10 @@ base::Result<Jobs::Source> Jobs::open(leaf::Job job, const leaf::Share& share, c
 }
 
 void Jobs::put(std::optional<Drawable> cube) {
+    {
+        const std::lock_guard lock(mutex_);
+        found_in_ = cube ? cube->volume : nullptr;
+    }
     boost::asio::post(drawing_, boost::asio::use_future([&] {
                           cube_.reset();  // before what takes its place
                           cube_ = std::move(cube);
@@ -142,7 +158,7 @@ void Jobs::load(const leaf::Load& job, const std::stop_token& stop) {
         tell_(leaf::Loaded{job.job, bricks.error()});
         return;
     }
-    put(Drawable{*std::move(bricks)});
+    put(Drawable{std::make_shared<const shear::BrickVolume>(*std::move(bricks))});
     base::release_free_memory();
     tell_memory();
     tell_(leaf::Loaded{job.job, {}});
@@ -157,8 +173,9 @@ Jobs::Drawable* Jobs::drawable(const leaf::Draw& draw) {
         return nullptr;
     }
     std::optional<Drawable>& by_limits = sketch_->by_limits;
-    if (!by_limits || by_limits->volume.mapping() != *draw.sketch) {
-        by_limits.emplace(sketch_->sketch.volume(*draw.sketch, drawers_));
+    if (!by_limits || by_limits->volume->mapping() != *draw.sketch) {
+        by_limits.emplace(
+            std::make_shared<const shear::BrickVolume>(sketch_->sketch.volume(*draw.sketch, drawers_)));
     }
     return &*by_limits;
 }
@@ -185,9 +202,10 @@ void Jobs::draw(const leaf::Draw& job, const std::stop_token& stop) {
         }
     };
     const auto& classification =
-        from->classifier.classify(from->volume, job.tf, job.factorisation.classify, drawers_);
+        from->classifier.classify(*from->volume, job.tf, job.factorisation.classify, drawers_);
     const shear::RenderStats stats =
-        shear::render_bands(from->volume, classification, job.factorisation, bands, drawers_, on_bands, stop);
+        shear::render_bands(*from->volume, classification, job.factorisation, bands, drawers_, on_bands, stop,
+                            job.visible ? &*job.visible : nullptr);
     if (stop.stop_requested()) {
         return;
     }
@@ -198,6 +216,7 @@ void Jobs::draw(const leaf::Draw& job, const std::stop_token& stop) {
     account.stats.set_samples(stats.samples);
     account.stats.set_bricks_total(stats.bricks_total);
     account.stats.set_bricks_empty(stats.bricks_empty);
+    account.stats.set_bricks_culled(stats.bricks_culled);
     account.stats.set_bricks_rendered(stats.bricks_rendered);
     node::put(account, std::get<wire::pb::Windows>(last.body));
     tell_(leaf::Drawn{job.job, std::move(last), true});
@@ -205,6 +224,32 @@ void Jobs::draw(const leaf::Draw& job, const std::stop_token& stop) {
         memory_told_ = begin;
         tell_memory();
     }
+}
+
+void Jobs::find(const leaf::Find& job, const std::stop_token& stop) {
+    Volume volume;
+    {
+        const std::lock_guard lock(mutex_);
+        volume = found_in_;
+    }
+    if (volume == nullptr) {
+        return;  // another is being loaded, and this job is told to stop
+    }
+    const culling::BlockGrid grid(volume->cube(), job.block_edge);
+    const culling::DirectionGrid directions(job.side);
+    for (const bool coarse : {true, false}) {
+        if (coarse && job.key.level > 0) {
+            continue;  // octants are of voxels
+        }
+        culling::FunctionTable table =
+            culling::functions_of(*volume, job.key, grid, directions, coarse, job.spacing, finders_, stop);
+        if (stop.stop_requested()) {
+            return;
+        }
+        tell_(leaf::Found{job.job, std::move(table), coarse});
+    }
+    volume.reset();
+    tell_memory();
 }
 
 void Jobs::tell_memory() {

@@ -1,6 +1,7 @@
 #pragma once
-// Carries out a leaf's jobs: counting and loading on one thread, drawing on another, each with workers that
-// share its loops, so that a sketch can be drawn while the rest is loading.
+// Carries out a leaf's jobs: counting and loading on one thread, drawing on another, finding opacity
+// functions on a third, each with workers that share its loops, so that a sketch can be drawn while the rest
+// is loading.
 
 #include <boost/asio/thread_pool.hpp>
 #include <chrono>
@@ -39,13 +40,15 @@ class Jobs {
     void count(const leaf::Count& count, const std::stop_token& stop);
     void load(const leaf::Load& load, const std::stop_token& stop);
     void draw(const leaf::Draw& draw, const std::stop_token& stop);
+    void find(const leaf::Find& find, const std::stop_token& stop);
     void sketch(leaf::Job job, const leaf::Share& share, int level, volume::VoxelSource& source,
                 const std::stop_token& stop);
     base::Result<Source> open(leaf::Job job, const leaf::Share& share, const std::stop_token& stop);
     void tell_memory();
 
+    using Volume = std::shared_ptr<const shear::BrickVolume>;
     struct Drawable {
-        shear::BrickVolume volume;
+        Volume volume;
         shear::Classifier classifier = {};
     };
     // A sketch becomes drawable by the limits it is to be drawn by.
@@ -59,7 +62,7 @@ class Jobs {
     void put(SketchToDraw sketch);
 
     std::function<void(leaf::JobEvent)> tell_;
-    base::Workers loaders_, drawers_;
+    base::Workers loaders_, drawers_, finders_;
     // Touched by the drawing thread only.
     std::optional<Drawable> cube_;
     std::optional<SketchToDraw> sketch_;
@@ -67,7 +70,8 @@ class Jobs {
     std::mutex mutex_;
     std::map<leaf::Job, std::stop_source> running_;
     std::map<leaf::Job, std::shared_ptr<LinkSource>> link_sources_;
-    boost::asio::thread_pool drawing_{1}, loading_{1};
+    Volume found_in_;  // the cube, for the finding thread
+    boost::asio::thread_pool drawing_{1}, loading_{1}, finding_{1};
 };
 
 }  // namespace shearwater::jobs

@@ -6,6 +6,7 @@
 #include "common/volume/levels.h"
 #include "protocol/node/merge.h"
 #include "protocol/wire/convert.h"
+#include "protocol/wire/convert_culling.h"
 
 namespace shearwater::leaf {
 
@@ -89,6 +90,8 @@ Effects Leaf::handle(JobEvent event, wire::Time now) {
                 draw_next(effects);
             }
         }
+    } else if (const auto* found = std::get_if<Found>(&event)) {
+        on_found(*found, effects);
     } else if (auto* wanted = std::get_if<VoxelsWanted>(&event)) {
         if (wanted->job == load_job_) {
             wanted_ = *wanted;
@@ -114,6 +117,8 @@ void Leaf::on_assigned(Effects& effects) {
     }
     if (!work_ || !node::same_work(*work_, assign) || phase_ == pb::PHASE_FAILED) {
         stop_loading(effects);
+        stop_finding(effects);
+        told_.clear();
         give_up_frames(effects);
         share_ = Share{.path = assign.cube().path(),
                        .hdu = static_cast<int>(assign.cube().hdu()),
@@ -145,6 +150,7 @@ void Leaf::advance(Effects& effects) {
     if (mapping_) {
         if (loaded_mapping_ == mapping_) {
             enter(pb::PHASE_READY, effects);
+            find_next(effects);
         } else if (load_job_ == 0 || phase_ != pb::PHASE_LOADING) {
             begin_load(effects);
         }
@@ -163,6 +169,8 @@ void Leaf::begin_count(Effects& effects) {
 
 void Leaf::begin_load(Effects& effects) {
     stop_loading(effects);
+    stop_finding(effects);
+    told_.clear();
     if (loaded_mapping_) {
         loaded_mapping_.reset();
         give_up_frames(effects);
@@ -180,6 +188,78 @@ void Leaf::stop_loading(Effects& effects) {
     wanted_.reset();
 }
 
+void Leaf::on_want_functions(wire::LinkId link, const pb::WantFunctions& want, Effects& effects) {
+    constexpr std::uint32_t most_side = 360;
+    std::vector<WantedFunctions> functions;
+    for (const pb::FunctionWant& wanted : want.wants()) {
+        auto key = wire::function_key_from(wanted.key());
+        if (!key) {
+            effects.net.emplace_back(wire::CloseLink{link, key.error().reason, key.error().text});
+            return;
+        }
+        if (share_ && std::ranges::find(wanted.known(), share_->place) == wanted.known().end()) {
+            functions.push_back({wanted.number(), *std::move(key)});
+        }
+    }
+    if ((want.block_edge() != 16 && want.block_edge() != 32) || want.side() == 0 || want.side() % 4 != 0 ||
+        want.side() > most_side) {
+        effects.net.emplace_back(wire::CloseLink{link, pb::REASON_INVALID, "want_functions: no such grid"});
+        return;
+    }
+    if (want.renewal() != renewal_ || want.block_edge() != block_edge_ ||
+        std::cmp_not_equal(want.side(), side_)) {
+        stop_finding(effects);
+        told_.clear();
+        renewal_ = want.renewal();
+        block_edge_ = want.block_edge();
+        side_ = static_cast<int>(want.side());
+    }
+    functions_ = std::move(functions);
+    if (find_job_ != 0 &&
+        std::ranges::find(functions_, finding_, &WantedFunctions::number) == functions_.end()) {
+        stop_finding(effects);
+    }
+    find_next(effects);
+}
+
+void Leaf::find_next(Effects& effects) {
+    if (find_job_ != 0 || phase_ != pb::PHASE_READY) {
+        return;
+    }
+    for (const WantedFunctions& wanted : functions_) {
+        const bool there = std::cmp_less_equal(wanted.key.level, volume::coarsest_level(share_->lattice.n));
+        if (there && !told_.contains(wanted.number)) {
+            find_job_ = ++last_job_;
+            finding_ = wanted.number;
+            effects.jobs.emplace_back(
+                Find{find_job_, wanted.key, block_edge_, side_, share_->lattice.spacing});
+            return;
+        }
+    }
+}
+
+void Leaf::on_found(const Found& found, Effects& effects) {
+    if (found.job != find_job_) {
+        return;
+    }
+    for (wire::Message& message :
+         wire::functions_messages(finding_, share_->place, found.coarse, found.table)) {
+        member_.tell_parent(std::move(message), effects.net);
+    }
+    if (!found.coarse) {
+        told_.insert(finding_);
+        find_job_ = 0;
+        find_next(effects);
+    }
+}
+
+void Leaf::stop_finding(Effects& effects) {
+    if (find_job_ != 0) {
+        effects.jobs.emplace_back(Stop{find_job_});
+        find_job_ = 0;
+    }
+}
+
 void Leaf::on_parent_up(Effects& effects) {
     send_histogram(sketched_, true, effects);
     send_histogram(histogram_, false, effects);
@@ -187,6 +267,9 @@ void Leaf::on_parent_up(Effects& effects) {
 }
 
 void Leaf::on_parent_down(Effects& effects) {
+    stop_finding(effects);
+    functions_.clear();
+    told_.clear();
     // Nobody waits for these frames any more.
     waiting_.clear();
     if (draw_job_ != 0) {
@@ -201,6 +284,8 @@ void Leaf::on_parent_message(const wire::Received& received, Effects& effects) {
         on_render(received.link, *render, effects);
     } else if (const auto* cancel = std::get_if<pb::Cancel>(&message.body)) {
         on_cancel(cancel->frame(), effects);
+    } else if (const auto* want = std::get_if<pb::WantFunctions>(&message.body)) {
+        on_want_functions(received.link, *want, effects);
     } else if (const auto* mapping = std::get_if<pb::SetMapping>(&message.body)) {
         on_mapping(received.link, mapping->mapping(), effects);
     } else if (const auto* voxels = std::get_if<pb::Voxels>(&message.body)) {
@@ -229,7 +314,12 @@ void Leaf::on_render(wire::LinkId link, const pb::Render& render, Effects& effec
         effects.net.emplace_back(wire::CloseLink{link, fault.reason, fault.text});
         return;
     }
-    Waiting wanted{render.frame(), *std::move(factorisation), *std::move(tf), {}};
+    auto visible = wire::visible_from(render, factorisation->lattice.n);
+    if (!visible) {
+        effects.net.emplace_back(wire::CloseLink{link, visible.error().reason, visible.error().text});
+        return;
+    }
+    Waiting wanted{render.frame(), *std::move(factorisation), *std::move(tf), {}, *std::move(visible)};
     if (render.has_sketch()) {
         const auto limits = wire::mapping_from(render.sketch());
         if (!limits) {
@@ -283,7 +373,7 @@ void Leaf::draw_next(Effects& effects) {
     drawing_ = next.frame;
     drawing_bands_ = bands_of(next.factorisation).size();
     effects.jobs.emplace_back(Draw{draw_job_, next.frame, std::move(next.factorisation), std::move(next.tf),
-                                   std::move(next.sketch)});
+                                   std::move(next.sketch), std::move(next.visible)});
 }
 
 void Leaf::on_cancel(std::uint64_t frame, Effects& effects) {

@@ -10,11 +10,13 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "common/base/result.h"
+#include "common/culling/function_store.h"
 #include "common/view/factorisation.h"
 #include "common/view/transfer_function.h"
 #include "common/volume/histogram.h"
@@ -55,7 +57,17 @@ struct Draw {
     std::uint64_t frame;
     view::Factorisation factorisation;
     view::TransferFunction tf;
-    std::optional<volume::Mapping> sketch;  // draw the sketch, by these limits
+    std::optional<volume::Mapping> sketch;          // draw the sketch, by these limits
+    std::optional<culling::VisibleBlocks> visible;  // else all are
+};
+// Goes on beside all others, where nobody else wants the processor. First coarse functions are told, then
+// all.
+struct Find {
+    Job job;
+    culling::FunctionKey key;
+    std::int64_t block_edge;
+    int side;  // of the direction grid
+    view::Vec3 spacing;
 };
 struct Stop {  // whatever of this job still runs
     Job job;
@@ -64,7 +76,7 @@ struct HandVoxels {  // an answer to a VoxelsWanted
     Job job;
     wire::Message voxels;
 };
-using Effect = std::variant<Count, Load, Draw, Stop, HandVoxels>;
+using Effect = std::variant<Count, Load, Draw, Find, Stop, HandVoxels>;
 
 struct Advanced {
     Job job;
@@ -87,6 +99,11 @@ struct Drawn {  // some of the frame's bands
     wire::Message windows;  // pb::Windows
     bool last;              // the frame is done
 };
+struct Found {  // of all blocks that it has a part of
+    Job job;
+    culling::FunctionTable table;
+    bool coarse;  // the job goes on
+};
 // A job that cannot see the cube's file asks for a part of it over the tree, one at a time.
 struct VoxelsWanted {
     Job job;
@@ -96,7 +113,7 @@ struct Memory {
     std::uint64_t resident;
     std::uint64_t peak;
 };
-using JobEvent = std::variant<Advanced, Sketched, Counted, Loaded, Drawn, VoxelsWanted, Memory>;
+using JobEvent = std::variant<Advanced, Sketched, Counted, Loaded, Drawn, Found, VoxelsWanted, Memory>;
 
 struct Effects {
     std::vector<wire::NetEffect> net;
@@ -123,6 +140,11 @@ class Leaf {
         view::Factorisation factorisation;
         view::TransferFunction tf;
         std::optional<volume::Mapping> sketch;
+        std::optional<culling::VisibleBlocks> visible;
+    };
+    struct WantedFunctions {
+        std::uint64_t number;
+        culling::FunctionKey key;
     };
 
     void on_assigned(Effects& effects);
@@ -130,6 +152,8 @@ class Leaf {
     void on_parent_down(Effects& effects);
     void on_parent_message(const wire::Received& received, Effects& effects);
     void on_render(wire::LinkId link, const wire::pb::Render& render, Effects& effects);
+    void on_want_functions(wire::LinkId link, const wire::pb::WantFunctions& want, Effects& effects);
+    void on_found(const Found& found, Effects& effects);
     void on_cancel(std::uint64_t frame, Effects& effects);
     void on_mapping(wire::LinkId link, const wire::pb::Mapping& mapping, Effects& effects);
 
@@ -137,6 +161,8 @@ class Leaf {
     void begin_count(Effects& effects);
     void begin_load(Effects& effects);
     void stop_loading(Effects& effects);
+    void find_next(Effects& effects);
+    void stop_finding(Effects& effects);
     int sketch_to_make() const { return sketched_ ? 0 : sketch_level_; }
     bool can_draw(const Waiting& wanted) const;
     void give_up_frames(Effects& effects);
@@ -169,6 +195,15 @@ class Leaf {
     std::deque<Waiting> waiting_;
     std::optional<VoxelsWanted> wanted_;
     std::uint64_t request_ = 0;  // of wanted_
+    // Functions that are to be found, the most wanted first; those that have been told since the parent came
+    // up.
+    std::vector<WantedFunctions> functions_;
+    std::int64_t block_edge_ = 0;
+    int side_ = 0;
+    std::set<std::uint64_t> told_;
+    std::uint64_t renewal_ = 0;
+    Job find_job_ = 0;
+    std::uint64_t finding_ = 0;  // number of find_job_
     wire::Time last_report_{};
 };
 

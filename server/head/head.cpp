@@ -11,7 +11,16 @@ namespace pb = wire::pb;
 using namespace std::chrono_literals;
 using Counted = node::Branch::Counted;
 
-Head::Head(Roster roster, Limits limits) : roster_(std::move(roster)), limits_(limits) {
+namespace {
+
+std::size_t renderers_of(const tree::Plan& plan) {
+    return plan.renderers_below(0).size();
+}
+
+}  // namespace
+
+Head::Head(Roster roster, Limits limits)
+    : roster_(std::move(roster)), limits_(limits), functions_(renderers_of(roster_.plan())) {
     std::vector<node::Branch::ChildSpec> children;
     for (const tree::Place child : roster_.plan().at(0).children) {
         const volume::Box& box = roster_.plan().at(child).box;
@@ -46,6 +55,11 @@ Effects Head::handle(JobEvent event, wire::Time now) {
     Effects effects;
     if (auto* read = std::get_if<VoxelsRead>(&event)) {
         branch_.deliver_voxels(read->voxels, effects.net);
+        return effects;
+    }
+    if (auto* looked = std::get_if<Looked>(&event)) {
+        on_looked(std::move(*looked), now, effects);
+        collect(now, effects);
         return effects;
     }
     auto& finished = std::get<Finished>(event);
@@ -174,6 +188,7 @@ void Head::on_link_down(wire::LinkId link, Effects& effects) {
     joining_.erase(link);
     branch_.link_down(link);
     roster_.leave(link);
+    functions_.forget(link);
     if (sessions_.erase(link) > 0) {
         std::erase_if(frames_, [&](const auto& entry) {
             const bool gone = entry.second.client == link;
@@ -353,11 +368,57 @@ void Head::begin_frames(wire::LinkId client, Session& session, wire::Time now, E
             FrameInWork{
                 .client = client, .view = view, .asked = session.asked, .sketch = sketch.has_value()});
         session.in_flight.push_back(last_frame_);
-        branch_.begin(factorisation, render, now, effects.net);
+        if (!sketch && can_cull(client, view, factorisation.level())) {
+            FrameInWork& frame = frames_.at(last_frame_);
+            frame.render = std::move(render);
+            frame.factorisation = factorisation;
+            effects.jobs.emplace_back(Look{last_frame_, std::move(factorisation), view.tf, view.culling});
+        } else {
+            branch_.begin(factorisation, render, now, effects.net);
+        }
+    }
+}
+
+bool Head::can_cull(wire::LinkId client, const wire::View& view, int level) {
+    if (view.culling.kind == culling::Kind::off) {
+        functions_.forget(client);
+        return false;
+    }
+    return culling::BlockGrid(roster_.cube().lattice.n).size() <= wire::most_blocks &&
+           functions_.need(client, view.tf, view.culling.kind, level);
+}
+
+void Head::on_looked(Looked looked, wire::Time now, Effects& effects) {
+    const auto found = frames_.find(looked.frame);
+    if (found == frames_.end() || !found->second.render) {
+        return;  // its client has gone, or has moved on
+    }
+    pb::Render render = *std::exchange(found->second.render, std::nullopt);
+    wire::put(looked.visible, render);
+    branch_.begin(found->second.factorisation, render, now, effects.net);
+}
+
+void Head::settle_functions(wire::Time now, Effects& effects) {
+    for (wire::Message& functions : branch_.take_functions()) {
+        const auto part = wire::functions_from(functions);
+        if (!part || !roster_.plan().has(part->place) || !roster_.plan().at(part->place).children.empty()) {
+            continue;
+        }
+        if (const auto key = functions_.came(*part, now)) {
+            effects.jobs.emplace_back(Learn{*key, roster_.cube().lattice.n,
+                                            roster_.plan().at(part->place).box, std::move(functions)});
+        }
+    }
+    if (const auto wanted = functions_.take_wanted(now)) {
+        branch_.want_functions(*wanted, effects.net);
+    }
+    for (const culling::FunctionKey& key : functions_.take_dropped()) {
+        effects.jobs.emplace_back(Forget{key});
     }
 }
 
 void Head::collect(wire::Time now, Effects& effects) {
+    settle_functions(now, effects);
     settle_sketch(now, effects);
     settle_mapping(effects);
     for (node::MergeJob& job : branch_.take_complete()) {

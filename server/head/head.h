@@ -15,6 +15,7 @@
 #include "protocol/node/branch.h"
 #include "protocol/node/merge.h"
 #include "protocol/wire/convert.h"
+#include "server/head/functions.h"
 #include "server/head/roster.h"
 
 namespace shearwater::head {
@@ -45,19 +46,40 @@ struct Finish {
 struct GiveUp {
     std::uint64_t frame;
 };
+// What a frame's rays may see, before it is asked for;
+struct Look {
+    std::uint64_t frame;
+    view::Factorisation factorisation;
+    view::TransferFunction tf;
+    culling::Settings settings;
+};
+// by what renderers have told of their blocks.
+struct Learn {
+    culling::FunctionKey key;
+    volume::Index3 n{};       // of the cube
+    volume::Box box;          // of the renderer
+    wire::Message functions;  // pb::Functions, sound
+};
+struct Forget {
+    culling::FunctionKey key;
+};
 struct ReadVoxels {
     wire::pb::NeedVoxels need;  // of a box inside the cube
 };
-using Job = std::variant<Lay, Finish, GiveUp, ReadVoxels>;
+using Job = std::variant<Lay, Finish, GiveUp, Look, Learn, Forget, ReadVoxels>;
 
 struct Finished {
     std::uint64_t number;
     wire::Message frame;  // pb::Frame
 };
+struct Looked {
+    std::uint64_t frame;
+    culling::VisibleBlocks visible;
+};
 struct VoxelsRead {
     wire::Message voxels;  // pb::Voxels
 };
-using JobEvent = std::variant<Finished, VoxelsRead>;
+using JobEvent = std::variant<Finished, Looked, VoxelsRead>;
 
 struct Effects {
     std::vector<wire::NetEffect> net;
@@ -98,6 +120,9 @@ class Head {
         bool sketch = false;  // it is drawn from the sketch
         bool begun = false;   // some of it is laid
         bool merged = false;  // it is being finished: only the warp is to come
+        // What is asked for once it is known what is visible.
+        std::optional<wire::pb::Render> render = {};
+        view::Factorisation factorisation = {};
     };
 
     void on_link_up(const wire::LinkUp& up, Effects& effects);
@@ -124,12 +149,17 @@ class Head {
     void begin_serving(wire::Time now, Effects& effects);
     void give_up(std::uint64_t number, const FrameInWork& frame, Effects& effects);
     void begin_frames(wire::LinkId client, Session& session, wire::Time now, Effects& effects);
+    // Whether a view's frame is to have what is hidden left out, and something is known of that.
+    bool can_cull(wire::LinkId client, const wire::View& view, int level);
+    void on_looked(Looked looked, wire::Time now, Effects& effects);
+    void settle_functions(wire::Time now, Effects& effects);
     void collect(wire::Time now, Effects& effects);
     static void fault(wire::LinkId link, const wire::Fault& fault, Effects& effects);
 
     Roster roster_;
     Limits limits_;
     node::Branch branch_;
+    Functions functions_;
     std::optional<volume::Mapping> mapping_;
     std::optional<volume::Mapping> sketch_;  // set once all have one: by its own limits
     bool serving_ = false;

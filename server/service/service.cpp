@@ -15,13 +15,17 @@ namespace pb = wire::pb;
 
 Service::Service(int threads, std::unique_ptr<volume::VoxelSource> cube,
                  std::function<void(head::JobEvent)> tell)
-    : cube_(std::move(cube)), tell_(std::move(tell)), workers_(threads) {}
+    : cube_(std::move(cube)), tell_(std::move(tell)), workers_(threads), lookers_(threads) {
+    boost::asio::post(learning_, [] { base::run_when_idle(); });
+}
 
 Service::~Service() {
-    frames_.stop();
-    reading_.stop();
-    frames_.join();
-    reading_.join();
+    for (boost::asio::thread_pool* const pool : {&frames_, &looking_, &learning_, &reading_}) {
+        pool->stop();
+    }
+    for (boost::asio::thread_pool* const pool : {&frames_, &looking_, &learning_, &reading_}) {
+        pool->join();
+    }
 }
 
 void Service::perform(head::Job job) {
@@ -31,6 +35,13 @@ void Service::perform(head::Job job) {
         boost::asio::post(frames_, [this, work = std::move(*frame)]() mutable { finish(work); });
     } else if (auto* given_up = std::get_if<head::GiveUp>(&job)) {
         boost::asio::post(frames_, [this, number = given_up->frame] { canvases_.done_with(number); });
+    } else if (auto* look = std::get_if<head::Look>(&job)) {
+        boost::asio::post(looking_,
+                          [this, work = std::move(*look)] { tell_(lookout_.look(work, lookers_)); });
+    } else if (auto* learn = std::get_if<head::Learn>(&job)) {
+        boost::asio::post(learning_, [this, work = std::move(*learn)] { lookout_.learn(work); });
+    } else if (auto* forget = std::get_if<head::Forget>(&job)) {
+        boost::asio::post(learning_, [this, work = std::move(*forget)] { lookout_.forget(work); });
     } else if (auto* read = std::get_if<head::ReadVoxels>(&job)) {
         boost::asio::post(reading_, [this, work = std::move(*read)] { read_voxels(work); });
     }

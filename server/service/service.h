@@ -1,6 +1,7 @@
 #pragma once
-// Carries out the head's jobs: finishing frames on one thread that shares its loops with the workers, and
-// reading voxels for renderers that cannot see the file on another.
+// Carries out the head's jobs: finishing frames on one thread that shares its loops with the workers, looking
+// what is visible on another, putting opacity functions together on a third, and reading voxels for renderers
+// that cannot see the file on a fourth.
 
 #include <boost/asio/thread_pool.hpp>
 #include <functional>
@@ -10,6 +11,7 @@
 #include "common/volume/source.h"
 #include "server/head/canvases.h"
 #include "server/head/head.h"
+#include "server/head/lookout.h"
 
 namespace shearwater::service {
 
@@ -29,9 +31,12 @@ class Service {
 
     std::unique_ptr<volume::VoxelSource> cube_;  // touched by the reading thread only
     std::function<void(head::JobEvent)> tell_;
-    base::Workers workers_;
+    base::Workers workers_, lookers_;
     head::Canvases canvases_;  // touched by the frames' thread only
+    head::Lookout lookout_;    // touched by the learning and the looking thread
     boost::asio::thread_pool frames_{1};
+    boost::asio::thread_pool looking_{1};
+    boost::asio::thread_pool learning_{1};  // where nobody else wants the processor
     boost::asio::thread_pool reading_{1};
 };
 

@@ -6,6 +6,7 @@
 #include "common/image/warp.h"
 #include "common/volume/statistics.h"
 #include "protocol/wire/picture.h"
+#include "renderer/culling/culler.h"
 #include "renderer/shear/render.h"
 #include "renderer/shear/sketch.h"
 
@@ -158,6 +159,17 @@ struct Simulation::Renderer final : Simulation::Daemon {
                                                    load->mapping, sim.workers_);
             bricks = *std::move(loaded);
             tell(leaf::Loaded{load->job, {}});
+        } else if (const auto* find = std::get_if<leaf::Find>(&effect); find != nullptr && bricks) {
+            for (const bool coarse : {true, false}) {
+                if (!coarse || find->key.level == 0) {
+                    tell(leaf::Found{
+                        find->job,
+                        culling::functions_of(
+                            *bricks, find->key, culling::BlockGrid(bricks->cube(), find->block_edge),
+                            culling::DirectionGrid(find->side), coarse, find->spacing, sim.workers_),
+                        coarse});
+                }
+            }
         } else if (const auto* draw = std::get_if<leaf::Draw>(&effect);
                    draw != nullptr && (draw->sketch ? sketch.has_value() : bricks.has_value())) {
             if (draw->sketch) {
@@ -175,7 +187,8 @@ struct Simulation::Renderer final : Simulation::Daemon {
         }
         const auto classified = shear::classify(volume, draw.tf, draw.factorisation.classify, sim.workers_);
         shear::render_bands(
-            volume, classified, draw.factorisation, bands, sim.workers_, [&](const shear::DrawnBands& drawn) {
+            volume, classified, draw.factorisation, bands, sim.workers_,
+            [&](const shear::DrawnBands& drawn) {
                 const bool last = drawn.bands == bands.size();
                 auto message =
                     wire::windows_message(draw.frame, drawn.bands, image::encode({&drawn.window, 1}));
@@ -183,7 +196,8 @@ struct Simulation::Renderer final : Simulation::Daemon {
                 sim.fabric_.later(number, [this, job = draw.job, message = std::move(message), last] {
                     tell(leaf::Drawn{job, message, last});
                 });
-            });
+            },
+            {}, draw.visible ? &*draw.visible : nullptr);
     }
 
     void make_sketch(leaf::Job job, const leaf::Share& share, int level) {
@@ -282,6 +296,12 @@ void Simulation::perform(head::Effects effects) {
                 canvases_.lay(lay->merge);
             } else if (auto* finish = std::get_if<head::Finish>(&job)) {
                 this->finish(*finish);
+            } else if (const auto* look = std::get_if<head::Look>(&job)) {
+                perform(head_.handle(lookout_.look(*look, workers_), fabric_.now()));
+            } else if (const auto* learn = std::get_if<head::Learn>(&job)) {
+                lookout_.learn(*learn);
+            } else if (const auto* forget = std::get_if<head::Forget>(&job)) {
+                lookout_.forget(*forget);
             } else if (const auto* given_up = std::get_if<head::GiveUp>(&job)) {
                 EXPECT_TRUE(canvases_.done_with(given_up->frame)) << "what was never begun is given up";
             }

@@ -18,6 +18,7 @@
 #include "renderer/shear/brick_volume.h"
 #include "server/head/canvases.h"
 #include "server/head/head.h"
+#include "server/head/lookout.h"
 
 namespace shearwater::support {
 
@@ -112,6 +113,7 @@ class Simulation {
     base::Workers workers_{1};
     head::Head head_;
     head::Canvases canvases_;
+    head::Lookout lookout_;
     std::map<tree::Place, std::unique_ptr<Daemon>> daemons_;
     std::uint64_t revision_ = 0;
     std::optional<wire::Message> frame_, sketch_;

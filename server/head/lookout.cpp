@@ -1,0 +1,76 @@
+#include "server/head/lookout.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace shearwater::head {
+
+using culling::BlockGrid;
+using culling::DirectionGrid;
+
+Lookout::Known& Lookout::known(const culling::FunctionKey& key) {
+    const auto found = std::ranges::find(known_, key, &Known::key);
+    return found != known_.end() ? *found : known_.emplace_back(Known{key, {}, {}, {}});
+}
+
+void Lookout::learn(const Learn& learn) {
+    const wire::FunctionPart part = wire::functions_from(learn.functions).value();
+    const BlockGrid grid(learn.n);
+    const DirectionGrid directions(part.side);
+    if (part.blocks != grid.blocks_of(learn.box)) {
+        return;  // of another division
+    }
+    Known& of = known(learn.key);
+    Incoming& incoming = (part.coarse ? of.coarse : of.fine)[part.place];
+    if (part.first_direction == 0) {
+        incoming = {.table = {.blocks = part.blocks, .side = part.side, .codes = {}}};
+        incoming.table.codes.resize(incoming.table.block_count() *
+                                    static_cast<std::size_t>(directions.cells()));
+    }
+    if (part.first_direction != incoming.directions) {
+        return;  // what came before it is lost, and will come again
+    }
+    std::memcpy(
+        &incoming.table.codes[static_cast<std::size_t>(part.first_direction) * incoming.table.block_count()],
+        part.codes.data(), part.codes.size());
+    incoming.directions += part.directions;
+    if (incoming.directions < directions.cells()) {
+        return;
+    }
+    const std::int64_t cell = part.coarse ? 4 : std::int64_t{1} << learn.key.level;
+    of.parts[part.place] = {learn.box,
+                            std::make_shared<const culling::FunctionTable>(std::move(incoming.table)), cell};
+    (part.coarse ? of.coarse : of.fine).erase(part.place);
+    std::vector<culling::SubVolume> parts;
+    for (const auto& [place, sub_volume] : of.parts) {
+        parts.push_back(sub_volume);
+    }
+    auto whole = std::make_shared<const culling::FunctionTable>(
+        culling::merged(grid, directions, learn.key.footprint, parts));
+    const std::lock_guard lock(mutex_);
+    if (!store_ || store_->grid() != grid) {
+        store_.emplace(grid, directions);
+    }
+    store_->put(learn.key, std::move(whole));
+}
+
+void Lookout::forget(const Forget& forget) {
+    std::erase_if(known_, [&](const Known& known) { return known.key == forget.key; });
+    const std::lock_guard lock(mutex_);
+    if (store_) {
+        store_->erase(forget.key);
+    }
+}
+
+Looked Lookout::look(const Look& look, base::Workers& workers) {
+    const std::lock_guard lock(mutex_);
+    const BlockGrid grid(look.factorisation.lattice.n);
+    if (!store_ || store_->grid() != grid) {
+        return {look.frame, {grid, culling::BlockSet(grid.size(), true)}};
+    }
+    const culling::BlockRates rates =
+        store_->rates(look.tf, culling::footprint_of(look.settings.kind), look.factorisation.level());
+    return {look.frame, {grid, visible_blocks(look.factorisation, grid, rates, look.settings, workers)}};
+}
+
+}  // namespace shearwater::head
