@@ -2,8 +2,8 @@
 // and VNNI). It takes a chunk of up to 32 pixels of a row on two slices at a time, and keeps what their rays
 // gather in registers from slice to slice.
 //
-//   64 voxels each of two rows -- interpolated across -- permuted to the pixels' places -- interpolated
-//     along: codes in steps of 1 / 127 -- both slices' nearest codes as bytes, side by side -- looked up in
+//   64 voxels each of two rows -- permuted to the pixels' places, two for each -- interpolated along -- and
+//     across: codes in steps of 1 / 127 -- both slices' nearest codes as bytes, side by side -- looked up in
 //     tables of 256 bytes -- both slices' values as words, side by side
 //
 // Extinctions become floats by a shift. Colours are summed as integers, both slices' in one instruction:
@@ -127,10 +127,12 @@ struct Row32 {
     static constexpr std::size_t max_pairs = Slab<std::uint8_t>::max_slices / 2;
 
     struct Pair {
-        __m512i codes0, codes1;           // of the nearer and of the other slice
-        __m512 low0, low1, high0, high1;  // lengths, then opacities
-        __m512i nearest;                  // nodes
-        bool any;                         // of them has opacity
+        __m512i codes0, codes1;            // of the nearer and of the other slice
+        const float *lengths0, *lengths1;  // their rays'
+        std::uint32_t wanted0, wanted1;    // of them
+        __m512 low0, low1, high0, high1;   // opacities
+        __m512i nearest;                   // nodes
+        bool any;                          // of them has opacity
     };
     std::array<Pair, max_pairs> pairs;
 };
@@ -164,10 +166,13 @@ HWY_INLINE void classify_pair(const OpacityTable::Bytes& tables, Row32::Pair& pa
         high0 = extinctions<0>(at.high);
         high1 = extinctions<1>(at.high);
     }
-    low0 = _mm512_mul_ps(low0, pair.low0);
-    low1 = _mm512_mul_ps(low1, pair.low1);
-    high0 = _mm512_mul_ps(high0, pair.high0);
-    high1 = _mm512_mul_ps(high1, pair.high1);
+    const auto times = [](__m512 extinction, const float* lengths, std::uint32_t wanted) HWY_ATTR {
+        return _mm512_maskz_mul_ps(static_cast<__mmask16>(wanted), extinction, _mm512_loadu_ps(lengths));
+    };
+    low0 = times(low0, pair.lengths0, pair.wanted0);
+    low1 = times(low1, pair.lengths1, pair.wanted1);
+    high0 = times(high0, pair.lengths0 + 16, pair.wanted0 >> 16);
+    high1 = times(high1, pair.lengths1 + 16, pair.wanted1 >> 16);
     const __m512 deepest = _mm512_max_ps(_mm512_max_ps(low0, low1), _mm512_max_ps(high0, high1));
     pair.any = _mm512_cmp_ps_mask(deepest, _mm512_setzero_ps(), _CMP_GT_OQ) != 0;
     const hn::Full512<float> d;
@@ -261,10 +266,8 @@ HWY_INLINE std::uint64_t composite_row_of_chunk(const Slab<std::uint8_t>& slab, 
         }
         Row32::Pair& pair = row.pairs[count / 2];
         (count % 2 == 0 ? pair.codes0 : pair.codes1) = codes;
-        (count % 2 == 0 ? pair.low0 : pair.low1) =
-            _mm512_maskz_loadu_ps(static_cast<__mmask16>(wanted), slice.lengths + ray);
-        (count % 2 == 0 ? pair.high0 : pair.high1) =
-            _mm512_maskz_loadu_ps(static_cast<__mmask16>(wanted >> 16), slice.lengths + ray + 16);
+        (count % 2 == 0 ? pair.lengths0 : pair.lengths1) = slice.lengths + ray;
+        (count % 2 == 0 ? pair.wanted0 : pair.wanted1) = wanted;
         ++count;
     }
     if (count == 0) {
@@ -273,7 +276,8 @@ HWY_INLINE std::uint64_t composite_row_of_chunk(const Slab<std::uint8_t>& slab, 
     if (count % 2 == 1) {
         Row32::Pair& pair = row.pairs[count / 2];
         pair.codes1 = pair.codes0;
-        pair.low1 = pair.high1 = _mm512_setzero_ps();
+        pair.lengths1 = pair.lengths0;
+        pair.wanted1 = 0;
     }
     const std::size_t pairs = (count + 1) / 2;
     bool any = false;
