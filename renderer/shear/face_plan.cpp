@@ -160,6 +160,11 @@ SliceMap FacePlan::node_map(double place) const {
             map.v_scale * nodes_per_voxel_};
 }
 
+bool FacePlan::on_planes() const {
+    const auto on_plane = [](double place) { return place == std::floor(place); };
+    return on_plane(node_place(0)) && on_plane(node_place(1));
+}
+
 void FacePlan::steps(int i, int j, std::span<float> out) const {
     if (!perspective()) {
         std::fill(out.begin(), out.end(), static_cast<float>(factorisation_.step(face_, i, j)));

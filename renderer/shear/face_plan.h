@@ -50,6 +50,8 @@ class FacePlan {
     int level() const { return factorisation_.level(); }
     double node_place(std::int64_t k) const { return factorisation_.slice_place(k) * nodes_per_voxel_; }
     view::SliceMap node_map(double place) const;
+    // Whether all slices lie on planes of nodes.
+    bool on_planes() const;
     // World lengths between two slices of the rays of pixels of row j from i on.
     void steps(int i, int j, std::span<float> out) const;
     // The pixels whose rays meet slice k inside the cube; none where k is behind the eye.

@@ -266,13 +266,13 @@ void Tile<Code>::render_part(Slices slices, std::span<const std::int64_t> number
 template <class Code>
 Slab<Code> Tile<Code>::slab_of(Slices slices, std::span<const std::int64_t> numbers,
                                const VoxelRegion& region, Visit visit, bool whole) {
-    const auto place = voxels_.find(region, whole ? with_block(region) : region);
+    const auto place = whole ? voxels_.find(region, block_of(region)) : voxels_.find(region, {});
     Slab<Code> slab{.fast_first = region.lo[0],
                     .slow_first = region.lo[1],
                     .fast_cells = region.hi[0] - region.lo[0],
                     .slow_cells = region.hi[1] - region.lo[1],
                     .stride = place.row_stride,
-                    .ahead = whole ? voxels_.ahead(behind(region)) : Ahead{},
+                    .ahead = whole && !voxels_.turns() ? voxels_.ahead(behind(region)) : Ahead{},
                     .fast_pixel = rect_.x0,
                     .slow_pixel = rect_.y0,
                     .blanks = visit == Visit::with_blanks,
