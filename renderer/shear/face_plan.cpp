@@ -63,6 +63,8 @@ class FacePlan::Row {
         std::tie(origin_, each_) = plan.line_of(plan.fast_axis());
     }
 
+    // What all of them are within.
+    const Stretch& whole() const { return row_; }
     Stretch at(int pixel) const { return clip(row_, plan_.fast_axis(), origin_ + each_ * pixel); }
 
   private:
@@ -207,11 +209,17 @@ void FacePlan::shares(std::int64_t k, int i, int j, std::span<float> out) const 
     const PixelRange below = in_row(inside(k - 1));
     const PixelRange above = in_row(inside(k + 1));
     const Row row(*this, j);
+    // On the cube's first plane a ray is at its end, as all are.
+    const bool enters_before = row.whole().from < place;
+    const bool leaves_behind = row.whole().to > place;
     for (std::size_t n = 0; n < out.size(); ++n) {
         const int pixel = i + static_cast<int>(n);
-        const Stretch ray = row.at(pixel);
-        const double from = below.first <= pixel && pixel < below.last ? place - half : ray.from;
-        const double to = above.first <= pixel && pixel < above.last ? place + half : ray.to;
+        const bool is_below = below.first <= pixel && pixel < below.last;
+        const bool is_above = above.first <= pixel && pixel < above.last;
+        const bool ends = (!is_below && enters_before) || (!is_above && leaves_behind);
+        const Stretch ray = ends ? row.at(pixel) : Stretch{place, place};
+        const double from = is_below ? place - half : ray.from;
+        const double to = is_above ? place + half : ray.to;
         out[n] = static_cast<float>(std::clamp((to - from) / (2 * half), 0.0, 2.0));
     }
 }
