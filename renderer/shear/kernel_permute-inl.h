@@ -132,14 +132,13 @@ struct Row32 {
         std::uint32_t wanted0, wanted1;    // of them
         __m512 low0, low1, high0, high1;   // opacities
         __m512i nearest;                   // nodes
-        bool any;                          // of them has opacity
     };
     std::array<Pair, max_pairs> pairs;
 };
 
 // Extinctions times lengths, and what they make opaque.
 template <bool between_nodes>
-HWY_INLINE void classify_pair(const OpacityTable::Bytes& tables, Row32::Pair& pair) {
+HWY_INLINE void classify_pair(const OpacityTable::Bytes& tables, bool faint, Row32::Pair& pair) {
     __m512i codes0 = pair.codes0, codes1 = pair.codes1;
     pair.nearest = side_by_side(codes_with<0>(codes0), codes_with<0>(codes1));
     __m512 low0, low1, high0, high1;
@@ -173,15 +172,16 @@ HWY_INLINE void classify_pair(const OpacityTable::Bytes& tables, Row32::Pair& pa
     low1 = times(low1, pair.lengths1, pair.wanted1);
     high0 = times(high0, pair.lengths0 + 16, pair.wanted0 >> 16);
     high1 = times(high1, pair.lengths1 + 16, pair.wanted1 >> 16);
-    const __m512 deepest = _mm512_max_ps(_mm512_max_ps(low0, low1), _mm512_max_ps(high0, high1));
-    pair.any = _mm512_cmp_ps_mask(deepest, _mm512_setzero_ps(), _CMP_GT_OQ) != 0;
     const hn::Full512<float> d;
-    const auto opacities = [&](__m512 depth, bool shallow) HWY_ATTR {
+    const auto opacities = [&](__m512 depth, bool few) HWY_ATTR {
         const hn::Vec512<float> y{depth};
-        return (shallow ? opacity_of_few_halvings(d, y) : opacity_of_halvings(d, y)).raw;
+        return (few ? opacity_of_few_halvings(d, y) : opacity_of_halvings(d, y)).raw;
     };
-    const bool shallow = _mm512_cmp_ps_mask(deepest, _mm512_set1_ps(few_halvings), _CMP_GE_OQ) == 0;
-    if (HWY_LIKELY(shallow)) {
+    const auto all_faint = [&] HWY_ATTR {
+        const __m512 deepest = _mm512_max_ps(_mm512_max_ps(low0, low1), _mm512_max_ps(high0, high1));
+        return _mm512_cmp_ps_mask(deepest, _mm512_set1_ps(few_halvings), _CMP_GE_OQ) == 0;
+    };
+    if (HWY_LIKELY(faint || all_faint())) {
         pair.low0 = opacities(low0, true);
         pair.low1 = opacities(low1, true);
         pair.high0 = opacities(high0, true);
@@ -218,12 +218,14 @@ HWY_INLINE void composite_pair(const OpacityTable::Bytes& tables, const Row32::P
 // The codes, in cell_steps, beyond which none has opacity.
 struct OpaqueCodes {
     __m512i above, below;
+    bool all;  // have some
 
     explicit OpaqueCodes(const OpacityTable& table)
         : above(_mm512_set1_epi16(static_cast<short>(std::max(table.first_opaque() - 1, -1) * cell_steps))),
-          below(_mm512_set1_epi16(static_cast<short>(std::min(table.last_opaque() + 1, 256) * cell_steps))) {}
+          below(_mm512_set1_epi16(static_cast<short>(std::min(table.last_opaque() + 1, 256) * cell_steps))),
+          all(table.first_opaque() <= 1 && table.last_opaque() >= 255) {}
     HWY_INLINE bool none(__m512i codes) const {
-        return (_mm512_cmpgt_epi16_mask(codes, above) & _mm512_cmplt_epi16_mask(codes, below)) == 0;
+        return !all && (_mm512_cmpgt_epi16_mask(codes, above) & _mm512_cmplt_epi16_mask(codes, below)) == 0;
     }
 };
 
@@ -280,18 +282,11 @@ HWY_INLINE std::uint64_t composite_row_of_chunk(const Slab<std::uint8_t>& slab, 
         pair.wanted1 = 0;
     }
     const std::size_t pairs = (count + 1) / 2;
-    bool any = false;
     for (std::size_t p = 0; p < pairs; ++p) {
-        classify_pair<between_nodes>(table.bytes(), row.pairs[p]);
-        any = any || row.pairs[p].any;
-    }
-    if (!any) {
-        return taken;
+        classify_pair<between_nodes>(table.bytes(), slab.faint, row.pairs[p]);
     }
     for (std::size_t p = 0; p < pairs; ++p) {
-        if (row.pairs[p].any) {
-            composite_pair<one_hue>(table.bytes(), row.pairs[p], low, high);
-        }
+        composite_pair<one_hue>(table.bytes(), row.pairs[p], low, high);
     }
     low.end<one_hue>(rays, ray);
     high.end<one_hue>(rays, ray + 16);

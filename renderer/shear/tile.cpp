@@ -102,6 +102,8 @@ void Tile<Code>::prepare_rays() {
         }
     }
     between_nodes_ = classification_.table.steepest() * longest > jump_seen;
+    // A ray's first sample and its last may stand for two steps.
+    faint_ = OpacityTable::largest * 2 * longest <= few_halvings;
 }
 
 template <class Code>
@@ -277,6 +279,7 @@ Slab<Code> Tile<Code>::slab_of(Slices slices, std::span<const std::int64_t> numb
                     .slow_pixel = rect_.y0,
                     .blanks = visit == Visit::with_blanks,
                     .between_nodes = between_nodes_,
+                    .faint = faint_,
                     .count = static_cast<int>(slices.size()),
                     .slices = {}};
     for (std::size_t n = 0; n < slices.size(); ++n) {

@@ -91,7 +91,7 @@ class Tile {
     BricksMet& met_;
     TileVoxels<Code> voxels_;
     view::Rect rect_;
-    bool between_nodes_ = true;
+    bool between_nodes_ = true, faint_ = false;
     std::uint64_t samples_ = 0;
     std::unique_ptr<Planes> planes_;
     // Kept from layer to layer for their memory.
