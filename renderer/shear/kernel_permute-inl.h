@@ -37,10 +37,15 @@ HWY_INLINE __m512i side_by_side(__m512i words0, __m512i words1) {
     return _mm512_ternarylogic_epi32(_mm512_set1_epi16(0xff), words0, _mm512_slli_epi16(words1, 8), choose);
 }
 
-// 64 bytes looked up in a table of 256.
+// 64 bytes looked up in a table of 256. Which of them are in its upper half: where none is, as for most
+// voxels of a dim cube, that half is not looked at.
+template <bool any_upper>
 HWY_INLINE __m512i look_up(const OpacityTable::Bytes::Plane& plane, __m512i index, __mmask64 upper) {
     const std::uint8_t* const p = plane.data();
     const __m512i low = _mm512_permutex2var_epi8(_mm512_load_si512(p), index, _mm512_load_si512(p + 64));
+    if constexpr (!any_upper) {
+        return low;
+    }
     const __m512i high =
         _mm512_permutex2var_epi8(_mm512_load_si512(p + 128), index, _mm512_load_si512(p + 192));
     return _mm512_mask_blend_epi8(upper, low, high);
@@ -50,9 +55,10 @@ HWY_INLINE __m512i look_up(const OpacityTable::Bytes::Plane& plane, __m512i inde
 struct Words {
     __m512i low, high;
 };
+template <bool any_upper = true>
 HWY_INLINE Words look_up(const OpacityTable::Bytes::Word& table, __m512i index, __mmask64 upper) {
-    const __m512i high_bytes = look_up(table.high, index, upper);
-    const __m512i low_bytes = look_up(table.low, index, upper);
+    const __m512i high_bytes = look_up<any_upper>(table.high, index, upper);
+    const __m512i low_bytes = look_up<any_upper>(table.low, index, upper);
     return {_mm512_unpacklo_epi8(low_bytes, high_bytes), _mm512_unpackhi_epi8(low_bytes, high_bytes)};
 }
 
@@ -194,22 +200,21 @@ HWY_INLINE void classify_pair(const OpacityTable::Bytes& tables, bool faint, Row
     }
 }
 
-template <bool one_hue>
-HWY_INLINE void composite_pair(const OpacityTable::Bytes& tables, const Row32::Pair& pair, Sixteen& low,
-                               Sixteen& high) {
-    const __mmask64 upper = _mm512_movepi8_mask(pair.nearest);
+template <bool one_hue, bool any_upper>
+HWY_INLINE void composite_pair(const OpacityTable::Bytes& tables, const Row32::Pair& pair, __mmask64 upper,
+                               Sixteen& low, Sixteen& high) {
     const __m512i low0 = low.gain(pair.low0);
     const __m512i low_gained = Sixteen::side_by_side(low0, low.gain(pair.low1));
     const __m512i high0 = high.gain(pair.high0);
     const __m512i high_gained = Sixteen::side_by_side(high0, high.gain(pair.high1));
-    const Words r = look_up(tables.r, pair.nearest, upper);
+    const Words r = look_up<any_upper>(tables.r, pair.nearest, upper);
     low.r = _mm512_dpwssd_epi32(low.r, low_gained, r.low);
     high.r = _mm512_dpwssd_epi32(high.r, high_gained, r.high);
     if constexpr (!one_hue) {
-        const Words g = look_up(tables.g, pair.nearest, upper);
+        const Words g = look_up<any_upper>(tables.g, pair.nearest, upper);
         low.g = _mm512_dpwssd_epi32(low.g, low_gained, g.low);
         high.g = _mm512_dpwssd_epi32(high.g, high_gained, g.high);
-        const Words b = look_up(tables.b, pair.nearest, upper);
+        const Words b = look_up<any_upper>(tables.b, pair.nearest, upper);
         low.b = _mm512_dpwssd_epi32(low.b, low_gained, b.low);
         high.b = _mm512_dpwssd_epi32(high.b, high_gained, b.high);
     }
@@ -286,7 +291,14 @@ HWY_INLINE std::uint64_t composite_row_of_chunk(const Slab<std::uint8_t>& slab, 
         classify_pair<between_nodes>(table.bytes(), slab.faint, row.pairs[p]);
     }
     for (std::size_t p = 0; p < pairs; ++p) {
-        composite_pair<one_hue>(table.bytes(), row.pairs[p], low, high);
+        const Row32::Pair& pair = row.pairs[p];
+        const __mmask64 upper = _mm512_movepi8_mask(pair.nearest);
+        // One channel's table is looked up as soon.
+        if (one_hue || upper != 0) {
+            composite_pair<one_hue, true>(table.bytes(), pair, upper, low, high);
+        } else {
+            composite_pair<one_hue, false>(table.bytes(), pair, upper, low, high);
+        }
     }
     low.end<one_hue>(rays, ray);
     high.end<one_hue>(rays, ray + 16);
