@@ -205,7 +205,7 @@ void Tile<Code>::render_octants(Slices slices, std::span<const std::int64_t> num
         std::swap(runs_, next_runs_);
     }
     for (const Piece& piece : pieces_) {
-        Fetching(voxels_.ahead(region_of(piece.run.along, piece.rows, numbers)), 1).step();
+        Fetching(voxels_.ahead(region_of(piece.run.along, piece.rows, numbers)), 1).step<Into::second>();
     }
     for (const Piece& piece : pieces_) {
         render_piece(slices, numbers, piece, fast, slow);
