@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 namespace shearwater::shear {
@@ -29,62 +28,40 @@ SliceRange owned_slices(const Factorisation& factorisation, const Face& face, co
     return slices;
 }
 
-// A stretch of a ray along its principal axis, and where  at + slope * (w - start)  is within [0, last] in
-// it.
-struct Stretch {
-    double from, to;
-};
-Stretch clipped(const Stretch& stretch, double start, double at, double slope, double last) {
+}  // namespace
+
+// To where a ray is inside the cube along an in-plane axis: where  at + slope * (w - start)  is. In
+// perspective its place is how fast it moves sideways; in parallel all do alike.
+FacePlan::Stretch FacePlan::clip(const Stretch& stretch, int axis, double place) const {
+    const view::Vec3& eye = factorisation_.eye;
+    const view::Vec3& direction = factorisation_.direction;
+    const double start = perspective() ? eye[face_.axis] : 0;
+    const double at = perspective() ? eye[axis] : place;
+    const double slope = perspective() ? place : direction[axis] / direction[face_.axis];
     if (slope == 0) {
         return stretch;
     }
     const double planes_per_voxel = 1 / slope;
     const double to_first = start - at * planes_per_voxel;
+    const auto last = static_cast<double>(last_voxel_[static_cast<std::size_t>(axis)]);
     const double to_last = start + (last - at) * planes_per_voxel;
     return {std::max(stretch.from, std::min(to_first, to_last)),
             std::min(stretch.to, std::max(to_first, to_last))};
 }
 
-}  // namespace
-
-class FacePlan::Row {
-  public:
-    Row(const FacePlan& plan, int j) : plan_(plan) {
-        const Factorisation& factorisation = plan.factorisation_;
-        const int axis = plan.face_.axis;
-        start_ = plan.perspective() ? factorisation.eye[axis] : 0;
-        row_ = {0, last(axis)};
-        if (plan.perspective()) {
-            (plan.face_.sign > 0 ? row_.from : row_.to) =
-                plan.face_.sign > 0 ? std::max(row_.from, start_) : std::min(row_.to, start_);
-        }
-        const int slow = plan.slow_axis();
-        row_ = clip(row_, slow, plan.place_of(slow, j));
-        std::tie(origin_, each_) = plan.line_of(plan.fast_axis());
+FacePlan::Stretch FacePlan::of_row(int j) const {
+    Stretch row{0, static_cast<double>(last_voxel_[static_cast<std::size_t>(face_.axis)])};
+    if (perspective()) {
+        const double eye = factorisation_.eye[face_.axis];
+        (face_.sign > 0 ? row.from : row.to) =
+            face_.sign > 0 ? std::max(row.from, eye) : std::min(row.to, eye);
     }
+    return clip(row, slow_axis(), place_of(slow_axis(), j));
+}
 
-    Stretch at(int pixel) const { return clip(row_, plan_.fast_axis(), origin_ + each_ * pixel); }
-
-  private:
-    double last(int axis) const {
-        return static_cast<double>(plan_.last_voxel_[static_cast<std::size_t>(axis)]);
-    }
-    // To where a ray is inside the cube along an in-plane axis. In perspective its place is how fast it moves
-    // sideways; in parallel all do alike.
-    Stretch clip(const Stretch& stretch, int axis, double place) const {
-        const Factorisation& factorisation = plan_.factorisation_;
-        return plan_.perspective()
-                   ? clipped(stretch, start_, factorisation.eye[axis], place, last(axis))
-                   : clipped(stretch, start_, place,
-                             factorisation.direction[axis] / factorisation.direction[plan_.face_.axis],
-                             last(axis));
-    }
-
-    const FacePlan& plan_;
-    double start_;
-    Stretch row_;
-    double origin_, each_;
-};
+FacePlan::Stretch FacePlan::of_ray(int i, int j) const {
+    return clip(rows_[static_cast<std::size_t>(j - window_.y0)], fast_axis(), place_of(fast_axis(), i));
+}
 
 FacePlan::FacePlan(const BrickVolume& volume, const Factorisation& factorisation, int face_index)
     : factorisation_(factorisation),
@@ -98,6 +75,9 @@ FacePlan::FacePlan(const BrickVolume& volume, const Factorisation& factorisation
         return;
     }
     gentle_ = gentle_rays();
+    for (int j = window_.y0; j < window_.y1; ++j) {
+        rows_.push_back(of_row(j));
+    }
     plans_.resize(static_cast<std::size_t>(slice_count()));
     inside_.resize(plans_.size() + 2);
     for (std::int64_t k = slices_.first - 1; k <= slices_.last + 1; ++k) {
@@ -160,6 +140,11 @@ SliceMap FacePlan::node_map(double place) const {
             map.v_scale * nodes_per_voxel_};
 }
 
+bool FacePlan::on_planes() const {
+    const auto on_plane = [](double place) { return place == std::floor(place); };
+    return on_plane(node_place(0)) && on_plane(node_place(1));
+}
+
 void FacePlan::steps(int i, int j, std::span<float> out) const {
     if (!perspective()) {
         std::fill(out.begin(), out.end(), static_cast<float>(factorisation_.step(face_, i, j)));
@@ -196,27 +181,33 @@ const Rect& FacePlan::inside(std::int64_t k) const {
 void FacePlan::shares(std::int64_t k, int i, int j, std::span<float> out) const {
     const double place = factorisation_.slice_place(k);
     const double half = factorisation_.slice_pitch() / 2;
+    const double steps_per_voxel = 1 / factorisation_.slice_pitch();  // a power of two
     const auto in_row = [j](const Rect& rect) {
         return rect.y0 <= j && j < rect.y1 ? PixelRange{rect.x0, rect.x1} : PixelRange{};
     };
     const PixelRange below = in_row(inside(k - 1));
     const PixelRange above = in_row(inside(k + 1));
-    const Row row(*this, j);
+    const Stretch& row = rows_[static_cast<std::size_t>(j - window_.y0)];
+    // On the cube's first plane a ray is at its end, as all are.
+    const bool enters_before = row.from < place;
+    const bool leaves_behind = row.to > place;
     for (std::size_t n = 0; n < out.size(); ++n) {
         const int pixel = i + static_cast<int>(n);
-        const Stretch ray = row.at(pixel);
-        const double from = below.first <= pixel && pixel < below.last ? place - half : ray.from;
-        const double to = above.first <= pixel && pixel < above.last ? place + half : ray.to;
-        out[n] = static_cast<float>(std::clamp((to - from) / (2 * half), 0.0, 2.0));
+        const bool is_below = below.first <= pixel && pixel < below.last;
+        const bool is_above = above.first <= pixel && pixel < above.last;
+        const bool ends = (!is_below && enters_before) || (!is_above && leaves_behind);
+        const Stretch ray = ends ? of_ray(pixel, j) : Stretch{place, place};
+        const double from = is_below ? place - half : ray.from;
+        const double to = is_above ? place + half : ray.to;
+        out[n] = static_cast<float>(std::clamp((to - from) * steps_per_voxel, 0.0, 2.0));
     }
 }
 
 // `sign`: towards lower planes or higher ones.
 void FacePlan::rims(std::int64_t k, int sign, int i, int j, std::span<float> out) const {
     const double place = factorisation_.slice_place(k);
-    const Row row(*this, j);
     for (std::size_t n = 0; n < out.size(); ++n) {
-        const Stretch ray = row.at(i + static_cast<int>(n));
+        const Stretch ray = of_ray(i + static_cast<int>(n), j);
         const double length = sign > 0 ? ray.to - place : place - ray.from;
         out[n] = static_cast<float>(std::clamp(length / factorisation_.slice_pitch(), 0.0, 1.0));
     }

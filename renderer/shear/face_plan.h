@@ -50,6 +50,8 @@ class FacePlan {
     int level() const { return factorisation_.level(); }
     double node_place(std::int64_t k) const { return factorisation_.slice_place(k) * nodes_per_voxel_; }
     view::SliceMap node_map(double place) const;
+    // Whether all slices lie on planes of nodes.
+    bool on_planes() const;
     // World lengths between two slices of the rays of pixels of row j from i on.
     void steps(int i, int j, std::span<float> out) const;
     // The pixels whose rays meet slice k inside the cube; none where k is behind the eye.
@@ -77,8 +79,13 @@ class FacePlan {
     view::SliceMap slice_map(double w) const;
     void lay_slice(const volume::Box& box, std::int64_t k);
     view::Rect gentle_rays() const;
-    // What the rays of row j have of the cube, along the principal axis: each pixel's part of it.
-    class Row;
+    // What a ray has of the cube, along the principal axis, and what all rays of a row are within.
+    struct Stretch {
+        double from, to;
+    };
+    Stretch clip(const Stretch& stretch, int axis, double place) const;
+    Stretch of_row(int j) const;
+    Stretch of_ray(int i, int j) const;
     void rims(std::int64_t k, int sign, int i, int j, std::span<float> out) const;
     std::size_t slot(std::int64_t k) const { return static_cast<std::size_t>(k - slices_.first); }
     bool perspective() const { return factorisation_.projection == view::Projection::perspective; }
@@ -88,7 +95,8 @@ class FacePlan {
     double nodes_per_voxel_;
     volume::Index3 last_voxel_;  // of the cube
     view::Rect window_, gentle_;
-    view::SliceRange slices_;  // that the sub-volume owns, in front of the eye
+    std::vector<Stretch> rows_;  // of the window
+    view::SliceRange slices_;    // that the sub-volume owns, in front of the eye
     std::vector<SlicePlan> plans_;
     std::vector<view::Rect> inside_;  // of the slices and of one more at either end
 };

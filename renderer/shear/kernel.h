@@ -55,6 +55,7 @@ struct Slab {
     int fast_pixel, slow_pixel;  // the tile's first pixel
     bool blanks;                 // whether code 0, which is no value, occurs
     bool between_nodes;          // whether extinction is interpolated, or that of the nearest node will do
+    bool faint;                  // whether no sample's optical depth exceeds few_halvings
     int count;
     std::array<Slice<Code>, max_ends> slices;
 };
@@ -77,6 +78,8 @@ inline constexpr int tallest_tile = 32;
 inline constexpr float opaque_enough = 1 - 1.0F / 4096;
 // What of a sample's corners has to be valid: one half, which rounding does not undo.
 inline constexpr float least_valid = 0.4999F;
+// Optical depths up to this many halvings of light are easy to make opacities of.
+inline constexpr float few_halvings = 0.25F;
 // Samples lie on whole steps of this many from one voxel to the next.
 inline constexpr int cell_steps = 127;
 

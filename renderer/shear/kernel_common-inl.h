@@ -17,16 +17,16 @@ namespace shearwater::shear::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // 1 - 2^-y for y >= 0, as accurate for a tiny y as for a large one: optical depths add up over a thousand
-// slices. By Taylor's series in y ln 2; four terms do for y < few_halvings.
-inline constexpr float few_halvings = 0.25F;
+// slices. By Taylor's series in y ln 2; for y < few_halvings by the parabola times y that comes nearest,
+// within seven parts in a million.
+inline constexpr float nearest_parabola[] = {6.93142606e-1F, 2.3990118e-1F, 5.20196385e-2F};
 inline constexpr float taylor[] = {6.93147181e-1F, 2.40226507e-1F, 5.55041087e-2F, 9.61812911e-3F,
                                    1.33335581e-3F};
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V opacity_of_few_halvings(D d, V y) {
-    V p = hn::NegMulAdd(y, hn::Set(d, taylor[3]), hn::Set(d, taylor[2]));
-    p = hn::NegMulAdd(y, p, hn::Set(d, taylor[1]));
-    p = hn::NegMulAdd(y, p, hn::Set(d, taylor[0]));
+    V p = hn::NegMulAdd(y, hn::Set(d, nearest_parabola[2]), hn::Set(d, nearest_parabola[1]));
+    p = hn::NegMulAdd(y, p, hn::Set(d, nearest_parabola[0]));
     return hn::Mul(y, p);
 }
 

@@ -2,8 +2,8 @@
 // and VNNI). It takes a chunk of up to 32 pixels of a row on two slices at a time, and keeps what their rays
 // gather in registers from slice to slice.
 //
-//   64 voxels each of two rows -- interpolated across -- permuted to the pixels' places -- interpolated
-//     along: codes in steps of 1 / 127 -- both slices' nearest codes as bytes, side by side -- looked up in
+//   64 voxels each of two rows -- permuted to the pixels' places, two for each -- interpolated along -- and
+//     across: codes in steps of 1 / 127 -- both slices' nearest codes as bytes, side by side -- looked up in
 //     tables of 256 bytes -- both slices' values as words, side by side
 //
 // Extinctions become floats by a shift. Colours are summed as integers, both slices' in one instruction:
@@ -37,10 +37,15 @@ HWY_INLINE __m512i side_by_side(__m512i words0, __m512i words1) {
     return _mm512_ternarylogic_epi32(_mm512_set1_epi16(0xff), words0, _mm512_slli_epi16(words1, 8), choose);
 }
 
-// 64 bytes looked up in a table of 256.
+// 64 bytes looked up in a table of 256. Which of them are in its upper half: where none is, as for most
+// voxels of a dim cube, that half is not looked at.
+template <bool any_upper>
 HWY_INLINE __m512i look_up(const OpacityTable::Bytes::Plane& plane, __m512i index, __mmask64 upper) {
     const std::uint8_t* const p = plane.data();
     const __m512i low = _mm512_permutex2var_epi8(_mm512_load_si512(p), index, _mm512_load_si512(p + 64));
+    if constexpr (!any_upper) {
+        return low;
+    }
     const __m512i high =
         _mm512_permutex2var_epi8(_mm512_load_si512(p + 128), index, _mm512_load_si512(p + 192));
     return _mm512_mask_blend_epi8(upper, low, high);
@@ -50,9 +55,10 @@ HWY_INLINE __m512i look_up(const OpacityTable::Bytes::Plane& plane, __m512i inde
 struct Words {
     __m512i low, high;
 };
+template <bool any_upper = true>
 HWY_INLINE Words look_up(const OpacityTable::Bytes::Word& table, __m512i index, __mmask64 upper) {
-    const __m512i high_bytes = look_up(table.high, index, upper);
-    const __m512i low_bytes = look_up(table.low, index, upper);
+    const __m512i high_bytes = look_up<any_upper>(table.high, index, upper);
+    const __m512i low_bytes = look_up<any_upper>(table.low, index, upper);
     return {_mm512_unpacklo_epi8(low_bytes, high_bytes), _mm512_unpackhi_epi8(low_bytes, high_bytes)};
 }
 
@@ -127,17 +133,18 @@ struct Row32 {
     static constexpr std::size_t max_pairs = Slab<std::uint8_t>::max_slices / 2;
 
     struct Pair {
-        __m512i codes0, codes1;           // of the nearer and of the other slice
-        __m512 low0, low1, high0, high1;  // lengths, then opacities
-        __m512i nearest;                  // nodes
-        bool any;                         // of them has opacity
+        __m512i codes0, codes1;            // of the nearer and of the other slice
+        const float *lengths0, *lengths1;  // their rays'
+        std::uint32_t wanted0, wanted1;    // of them
+        __m512 low0, low1, high0, high1;   // opacities
+        __m512i nearest;                   // nodes
     };
     std::array<Pair, max_pairs> pairs;
 };
 
 // Extinctions times lengths, and what they make opaque.
 template <bool between_nodes>
-HWY_INLINE void classify_pair(const OpacityTable::Bytes& tables, Row32::Pair& pair) {
+HWY_INLINE void classify_pair(const OpacityTable::Bytes& tables, bool faint, Row32::Pair& pair) {
     __m512i codes0 = pair.codes0, codes1 = pair.codes1;
     pair.nearest = side_by_side(codes_with<0>(codes0), codes_with<0>(codes1));
     __m512 low0, low1, high0, high1;
@@ -164,19 +171,23 @@ HWY_INLINE void classify_pair(const OpacityTable::Bytes& tables, Row32::Pair& pa
         high0 = extinctions<0>(at.high);
         high1 = extinctions<1>(at.high);
     }
-    low0 = _mm512_mul_ps(low0, pair.low0);
-    low1 = _mm512_mul_ps(low1, pair.low1);
-    high0 = _mm512_mul_ps(high0, pair.high0);
-    high1 = _mm512_mul_ps(high1, pair.high1);
-    const __m512 deepest = _mm512_max_ps(_mm512_max_ps(low0, low1), _mm512_max_ps(high0, high1));
-    pair.any = _mm512_cmp_ps_mask(deepest, _mm512_setzero_ps(), _CMP_GT_OQ) != 0;
-    const hn::Full512<float> d;
-    const auto opacities = [&](__m512 depth, bool shallow) HWY_ATTR {
-        const hn::Vec512<float> y{depth};
-        return (shallow ? opacity_of_few_halvings(d, y) : opacity_of_halvings(d, y)).raw;
+    const auto times = [](__m512 extinction, const float* lengths, std::uint32_t wanted) HWY_ATTR {
+        return _mm512_maskz_mul_ps(static_cast<__mmask16>(wanted), extinction, _mm512_loadu_ps(lengths));
     };
-    const bool shallow = _mm512_cmp_ps_mask(deepest, _mm512_set1_ps(few_halvings), _CMP_GE_OQ) == 0;
-    if (HWY_LIKELY(shallow)) {
+    low0 = times(low0, pair.lengths0, pair.wanted0);
+    low1 = times(low1, pair.lengths1, pair.wanted1);
+    high0 = times(high0, pair.lengths0 + 16, pair.wanted0 >> 16);
+    high1 = times(high1, pair.lengths1 + 16, pair.wanted1 >> 16);
+    const hn::Full512<float> d;
+    const auto opacities = [&](__m512 depth, bool few) HWY_ATTR {
+        const hn::Vec512<float> y{depth};
+        return (few ? opacity_of_few_halvings(d, y) : opacity_of_halvings(d, y)).raw;
+    };
+    const auto all_faint = [&] HWY_ATTR {
+        const __m512 deepest = _mm512_max_ps(_mm512_max_ps(low0, low1), _mm512_max_ps(high0, high1));
+        return _mm512_cmp_ps_mask(deepest, _mm512_set1_ps(few_halvings), _CMP_GE_OQ) == 0;
+    };
+    if (HWY_LIKELY(faint || all_faint())) {
         pair.low0 = opacities(low0, true);
         pair.low1 = opacities(low1, true);
         pair.high0 = opacities(high0, true);
@@ -189,22 +200,21 @@ HWY_INLINE void classify_pair(const OpacityTable::Bytes& tables, Row32::Pair& pa
     }
 }
 
-template <bool one_hue>
-HWY_INLINE void composite_pair(const OpacityTable::Bytes& tables, const Row32::Pair& pair, Sixteen& low,
-                               Sixteen& high) {
-    const __mmask64 upper = _mm512_movepi8_mask(pair.nearest);
+template <bool one_hue, bool any_upper>
+HWY_INLINE void composite_pair(const OpacityTable::Bytes& tables, const Row32::Pair& pair, __mmask64 upper,
+                               Sixteen& low, Sixteen& high) {
     const __m512i low0 = low.gain(pair.low0);
     const __m512i low_gained = Sixteen::side_by_side(low0, low.gain(pair.low1));
     const __m512i high0 = high.gain(pair.high0);
     const __m512i high_gained = Sixteen::side_by_side(high0, high.gain(pair.high1));
-    const Words r = look_up(tables.r, pair.nearest, upper);
+    const Words r = look_up<any_upper>(tables.r, pair.nearest, upper);
     low.r = _mm512_dpwssd_epi32(low.r, low_gained, r.low);
     high.r = _mm512_dpwssd_epi32(high.r, high_gained, r.high);
     if constexpr (!one_hue) {
-        const Words g = look_up(tables.g, pair.nearest, upper);
+        const Words g = look_up<any_upper>(tables.g, pair.nearest, upper);
         low.g = _mm512_dpwssd_epi32(low.g, low_gained, g.low);
         high.g = _mm512_dpwssd_epi32(high.g, high_gained, g.high);
-        const Words b = look_up(tables.b, pair.nearest, upper);
+        const Words b = look_up<any_upper>(tables.b, pair.nearest, upper);
         low.b = _mm512_dpwssd_epi32(low.b, low_gained, b.low);
         high.b = _mm512_dpwssd_epi32(high.b, high_gained, b.high);
     }
@@ -213,12 +223,14 @@ HWY_INLINE void composite_pair(const OpacityTable::Bytes& tables, const Row32::P
 // The codes, in cell_steps, beyond which none has opacity.
 struct OpaqueCodes {
     __m512i above, below;
+    bool all;  // have some
 
     explicit OpaqueCodes(const OpacityTable& table)
         : above(_mm512_set1_epi16(static_cast<short>(std::max(table.first_opaque() - 1, -1) * cell_steps))),
-          below(_mm512_set1_epi16(static_cast<short>(std::min(table.last_opaque() + 1, 256) * cell_steps))) {}
+          below(_mm512_set1_epi16(static_cast<short>(std::min(table.last_opaque() + 1, 256) * cell_steps))),
+          all(table.first_opaque() <= 1 && table.last_opaque() >= 255) {}
     HWY_INLINE bool none(__m512i codes) const {
-        return (_mm512_cmpgt_epi16_mask(codes, above) & _mm512_cmplt_epi16_mask(codes, below)) == 0;
+        return !all && (_mm512_cmpgt_epi16_mask(codes, above) & _mm512_cmplt_epi16_mask(codes, below)) == 0;
     }
 };
 
@@ -261,10 +273,8 @@ HWY_INLINE std::uint64_t composite_row_of_chunk(const Slab<std::uint8_t>& slab, 
         }
         Row32::Pair& pair = row.pairs[count / 2];
         (count % 2 == 0 ? pair.codes0 : pair.codes1) = codes;
-        (count % 2 == 0 ? pair.low0 : pair.low1) =
-            _mm512_maskz_loadu_ps(static_cast<__mmask16>(wanted), slice.lengths + ray);
-        (count % 2 == 0 ? pair.high0 : pair.high1) =
-            _mm512_maskz_loadu_ps(static_cast<__mmask16>(wanted >> 16), slice.lengths + ray + 16);
+        (count % 2 == 0 ? pair.lengths0 : pair.lengths1) = slice.lengths + ray;
+        (count % 2 == 0 ? pair.wanted0 : pair.wanted1) = wanted;
         ++count;
     }
     if (count == 0) {
@@ -273,20 +283,21 @@ HWY_INLINE std::uint64_t composite_row_of_chunk(const Slab<std::uint8_t>& slab, 
     if (count % 2 == 1) {
         Row32::Pair& pair = row.pairs[count / 2];
         pair.codes1 = pair.codes0;
-        pair.low1 = pair.high1 = _mm512_setzero_ps();
+        pair.lengths1 = pair.lengths0;
+        pair.wanted1 = 0;
     }
     const std::size_t pairs = (count + 1) / 2;
-    bool any = false;
     for (std::size_t p = 0; p < pairs; ++p) {
-        classify_pair<between_nodes>(table.bytes(), row.pairs[p]);
-        any = any || row.pairs[p].any;
-    }
-    if (!any) {
-        return taken;
+        classify_pair<between_nodes>(table.bytes(), slab.faint, row.pairs[p]);
     }
     for (std::size_t p = 0; p < pairs; ++p) {
-        if (row.pairs[p].any) {
-            composite_pair<one_hue>(table.bytes(), row.pairs[p], low, high);
+        const Row32::Pair& pair = row.pairs[p];
+        const __mmask64 upper = _mm512_movepi8_mask(pair.nearest);
+        // One channel's table is looked up as soon.
+        if (one_hue || upper != 0) {
+            composite_pair<one_hue, true>(table.bytes(), pair, upper, low, high);
+        } else {
+            composite_pair<one_hue, false>(table.bytes(), pair, upper, low, high);
         }
     }
     low.end<one_hue>(rays, ray);

@@ -31,8 +31,8 @@ HWY_INLINE __m512i steps_of_eight(double offset, double scale, int pixel, std::i
 // For the pixels of a chunk: which are wanted on a slice, and which voxels of the 64 from `first` on each
 // lies between.
 struct Permutation {
-    __m512i left, right;  // indices into a row interpolated across
-    __m512i fraction;     // 15 bits
+    __m512i voxels;   // the one before and the one behind each pixel, side by side
+    __m512i weights;  // theirs, in cell_steps
     std::ptrdiff_t first;
     int needed;  // voxels, from that on
     std::uint32_t wanted;
@@ -76,25 +76,17 @@ HWY_INLINE Permutation permutation_of(const Slab<std::uint8_t>& slab, const Slic
         const __m512i cell = _mm512_srli_epi32(_mm512_mullo_epi32(in_window, _mm512_set1_epi32(33027)), 22);
         const __m512i step =
             _mm512_sub_epi32(in_window, _mm512_mullo_epi32(cell, _mm512_set1_epi32(cell_steps)));
-        const __m512 fraction =
-            _mm512_mul_ps(_mm512_cvtepi32_ps(step), _mm512_set1_ps(32767.0F / cell_steps));
-        return _mm512_or_si512(_mm512_slli_epi32(cell, 16), _mm512_cvtps_epi32(fraction));
+        return _mm512_or_si512(_mm512_slli_epi32(cell, 16), step);
     };
     const __m512i low = half(0);
     // Narrow chunks have no second half.
     const __m512i high = begin + count > 16 ? half(16) : _mm512_setzero_si512();
     const __m512i cell = words_of_pixels(low, high, 1);
-    // Interleaving two rows of voxels within 16 bytes leaves each eight in one of two vectors by turns.
-    const auto index = [](__m512i voxel) HWY_ATTR {
-        const __m512i in_eight = _mm512_and_si512(voxel, _mm512_set1_epi16(7));
-        const __m512i lane =
-            _mm512_slli_epi16(_mm512_and_si512(_mm512_srli_epi16(voxel, 4), _mm512_set1_epi16(3)), 3);
-        const __m512i vector = _mm512_slli_epi16(_mm512_and_si512(voxel, _mm512_set1_epi16(8)), 2);
-        return _mm512_or_si512(in_eight, _mm512_or_si512(lane, vector));
-    };
-    permutation.left = index(cell);
-    permutation.right = index(_mm512_add_epi16(cell, _mm512_set1_epi16(1)));
-    permutation.fraction = words_of_pixels(low, high, 0);
+    const __m512i step = words_of_pixels(low, high, 0);
+    const auto bytes = [](__m512i before, __m512i behind)
+                           HWY_ATTR { return _mm512_or_si512(before, _mm512_slli_epi16(behind, 8)); };
+    permutation.voxels = bytes(cell, _mm512_add_epi16(cell, _mm512_set1_epi16(1)));
+    permutation.weights = bytes(_mm512_sub_epi16(_mm512_set1_epi16(cell_steps), step), step);
     permutation.first = first - slab.fast_first;
     // Rounding to steps may lead to the next voxel, and interpolation to the one beyond.
     permutation.needed = static_cast<int>(static_cast<std::int64_t>(std::max(from, to)) - first) + 3;
@@ -102,15 +94,15 @@ HWY_INLINE Permutation permutation_of(const Slab<std::uint8_t>& slab, const Slic
     return permutation;
 }
 
-// For the rows of a slab: where they lie among a slice's rows of voxels.
+// For the rows of a slab, and one more: where they lie among a slice's rows of voxels.
 struct RowPlaces {
-    std::array<std::int64_t, tallest_tile + 8> offsets;   // of the row before, from the slice's first voxel
-    std::array<std::uint16_t, tallest_tile + 8> weights;  // of it and of the row behind, a byte each
+    std::array<std::int64_t, tallest_tile + 8> offsets;  // of the row before, from the slice's first voxel
+    std::array<std::int32_t, tallest_tile + 8> weights;  // of the row behind, 15 bits, twice
 };
 
 HWY_INLINE void lay_rows(const Slab<std::uint8_t>& slab, const Slice<std::uint8_t>& slice,
                          RowPlaces& places) {
-    for (int j = slice.pixels.y0; j < slice.pixels.y1; j += 8) {
+    for (int j = slice.pixels.y0; j <= slice.pixels.y1; j += 8) {
         const __m512i steps =
             steps_of_eight(slice.slow_offset, slice.slow_scale, slab.slow_pixel + j, slab.slow_first);
         // Divided by cell_steps, by way of a product that is exact for all that a double may hold of it.
@@ -120,11 +112,13 @@ HWY_INLINE void lay_rows(const Slab<std::uint8_t>& slab, const Slice<std::uint8_
                                               _mm512_set1_pd(1.0 / cell_steps))),
             _mm512_set1_epi64(slab.slow_cells - 1));
         const __m512i step = _mm512_sub_epi64(steps, _mm512_mullo_epi64(cell, _mm512_set1_epi64(cell_steps)));
-        const __m512i weights = _mm512_or_si512(_mm512_sub_epi64(_mm512_set1_epi64(cell_steps), step),
-                                                _mm512_slli_epi64(step, 8));
+        // Rounded: step * 32767 / cell_steps, which is 258 and a little more.
+        const __m256i weights = _mm512_cvtepi64_epi32(
+            _mm512_add_epi64(_mm512_mullo_epi64(step, _mm512_set1_epi64(258)), _mm512_srli_epi64(step, 6)));
         const auto n = static_cast<std::size_t>(j);
         _mm512_storeu_si512(&places.offsets[n], _mm512_mullo_epi64(cell, _mm512_set1_epi64(slab.stride)));
-        _mm_storeu_si128(reinterpret_cast<__m128i*>(&places.weights[n]), _mm512_cvtepi64_epi16(weights));
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(&places.weights[n]),
+                            _mm256_or_si256(weights, _mm256_slli_epi32(weights, 16)));
     }
 }
 
@@ -148,26 +142,25 @@ template <bool narrow>
 HWY_INLINE __m512i codes_along(const Slab<std::uint8_t>& slab, const Slice<std::uint8_t>& slice, int j,
                                const RowPlaces& places, const Permutation& permutation) {
     const auto row = static_cast<std::size_t>(j);
-    const __m512i weights = _mm512_set1_epi16(static_cast<short>(places.weights[row]));
     const std::ptrdiff_t from = places.offsets[row] + permutation.first;
-    const std::ptrdiff_t stride = slab.stride;
-    __m512i low, high;
-    const auto across = [&](const std::uint8_t* voxels) HWY_ATTR {
-        const __m512i row0 = voxels_at<narrow>(voxels + from, permutation.needed);
-        const __m512i row1 = voxels_at<narrow>(voxels + from + stride, permutation.needed);
-        low = _mm512_maddubs_epi16(_mm512_unpacklo_epi8(row0, row1), weights);
-        high = _mm512_maddubs_epi16(_mm512_unpackhi_epi8(row0, row1), weights);
+    const auto along = [&](const std::uint8_t* plane, std::ptrdiff_t offset) HWY_ATTR {
+        const __m512i voxels = voxels_at<narrow>(plane + from + offset, permutation.needed);
+        return _mm512_maddubs_epi16(_mm512_permutexvar_epi8(permutation.voxels, voxels), permutation.weights);
     };
-    across(slice.voxels);
-    if (slice.next != nullptr) {
-        const __m512i low0 = low, high0 = high;
-        across(slice.next);
-        low = _mm512_avg_epu16(low, low0);
-        high = _mm512_avg_epu16(high, high0);
+    if (slab.ahead.lines > 0) {
+        // Nor is this in the first cache for long: what the next row of pixels needs.
+        const std::ptrdiff_t next = places.offsets[row + 1] + permutation.first + slab.stride;
+        __builtin_prefetch(slice.voxels + next);
+        __builtin_prefetch(slice.voxels + next + permuted_voxels - 1);
     }
-    const __m512i left = _mm512_permutex2var_epi16(low, permutation.left, high);
-    const __m512i right = _mm512_permutex2var_epi16(low, permutation.right, high);
-    return _mm512_add_epi16(left, _mm512_mulhrs_epi16(_mm512_sub_epi16(right, left), permutation.fraction));
+    __m512i before = along(slice.voxels, 0);
+    __m512i behind = along(slice.voxels, slab.stride);
+    if (slice.next != nullptr) {
+        before = _mm512_avg_epu16(before, along(slice.next, 0));
+        behind = _mm512_avg_epu16(behind, along(slice.next, slab.stride));
+    }
+    return _mm512_add_epi16(before, _mm512_mulhrs_epi16(_mm512_sub_epi16(behind, before),
+                                                        _mm512_set1_epi32(places.weights[row])));
 }
 
 }  // namespace shearwater::shear::HWY_NAMESPACE

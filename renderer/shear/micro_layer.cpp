@@ -1,6 +1,7 @@
 #include "renderer/shear/micro_layer.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 namespace shearwater::shear {
@@ -10,6 +11,15 @@ namespace {
 // So many octants and fewer are not worth going round: the kernel takes more pixels at a time than lie in
 // them.
 constexpr std::int64_t bridged = 4;
+
+// How many bits a byte has: processors that this has to run on may have no instruction for it.
+constexpr auto bits_of = [] {
+    std::array<std::uint8_t, 256> bits{};
+    for (unsigned byte = 0; byte < bits.size(); ++byte) {
+        bits[byte] = static_cast<std::uint8_t>(std::popcount(byte));
+    }
+    return bits;
+}();
 
 // How far a run of octants lies along the rays' way: in perspective all go away from the eye, so runs on one
 // side of it are in order of distance, and those on different sides are never on one ray.
@@ -40,7 +50,7 @@ MicroLayer::MicroLayer(const CodeVolume& codes, std::span<const Content> content
         for (std::int64_t f = fast.first; f < fast.end; ++f) {
             const Content& content = at(f, s);
             any |= content.opaque_octants;
-            opaque += std::popcount(content.opaque_octants);
+            opaque += bits_of[content.opaque_octants];
             blank += content.blanks ? 1 : 0;
         }
         opaque_octants_.push_back(any);

@@ -103,6 +103,8 @@ void Tile<Code>::prepare_rays() {
         }
     }
     between_nodes_ = classification_.table.steepest() * longest > jump_seen;
+    // A ray's first sample and its last may stand for two steps.
+    faint_ = OpacityTable::largest * 2 * longest <= few_halvings;
 }
 
 template <class Code>
@@ -204,7 +206,7 @@ void Tile<Code>::render_octants(Slices slices, std::span<const std::int64_t> num
         std::swap(runs_, next_runs_);
     }
     for (const Piece& piece : pieces_) {
-        Fetching(voxels_.ahead(region_of(piece.run.along, piece.rows, numbers)), 1).step();
+        Fetching(voxels_.ahead(region_of(piece.run.along, piece.rows, numbers)), 1).step<Into::second>();
     }
     for (const Piece& piece : pieces_) {
         render_piece(slices, numbers, piece, fast, slow);
@@ -267,17 +269,18 @@ void Tile<Code>::render_part(Slices slices, std::span<const std::int64_t> number
 template <class Code>
 Slab<Code> Tile<Code>::slab_of(Slices slices, std::span<const std::int64_t> numbers,
                                const VoxelRegion& region, Visit visit, bool whole) {
-    const auto place = voxels_.find(region, whole ? with_block(region) : region);
+    const auto place = whole ? voxels_.find(region, block_of(region)) : voxels_.find(region, {});
     Slab<Code> slab{.fast_first = region.lo[0],
                     .slow_first = region.lo[1],
                     .fast_cells = region.hi[0] - region.lo[0],
                     .slow_cells = region.hi[1] - region.lo[1],
                     .stride = place.row_stride,
-                    .ahead = whole ? voxels_.ahead(behind(region)) : Ahead{},
+                    .ahead = whole && !voxels_.turns() ? voxels_.ahead(behind(region)) : Ahead{},
                     .fast_pixel = rect_.x0,
                     .slow_pixel = rect_.y0,
                     .blanks = visit == Visit::with_blanks,
                     .between_nodes = between_nodes_,
+                    .faint = faint_,
                     .count = static_cast<int>(slices.size()),
                     .slices = {}};
     for (std::size_t n = 0; n < slices.size(); ++n) {

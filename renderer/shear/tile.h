@@ -52,6 +52,7 @@ class Tile {
         MicroLayer::Run run;
         MicroRun rows;
     };
+    using Block = std::array<VoxelRegion, 4>;  // parts of what is turned together
     class Segments;
 
     void prepare_rays();
@@ -72,7 +73,7 @@ class Tile {
     VoxelRegion region_of(const MicroRun& fast, const MicroRun& slow,
                           std::span<const std::int64_t> numbers) const;
     VoxelRegion between_planes(std::int64_t lo, std::int64_t hi) const;
-    VoxelRegion with_block(const VoxelRegion& region) const;
+    Block block_of(const VoxelRegion& region) const;
     VoxelRegion behind(const VoxelRegion& region) const;
     void note_met(const VoxelRegion& region);
     const float* lengths_on(std::int64_t k, const view::Rect& pixels, Plane& spare);
@@ -91,7 +92,7 @@ class Tile {
     BricksMet& met_;
     TileVoxels<Code> voxels_;
     view::Rect rect_;
-    bool between_nodes_ = true;
+    bool between_nodes_ = true, faint_ = false;
     std::uint64_t samples_ = 0;
     std::unique_ptr<Planes> planes_;
     // Kept from layer to layer for their memory.

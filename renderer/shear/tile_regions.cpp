@@ -100,42 +100,32 @@ VoxelRegion Tile<Code>::between_planes(std::int64_t lo, std::int64_t hi) const {
     return region;
 }
 
-// The region and what the tile needs of the planes about it, up to whole blocks of them: what is turned
-// together. Segments that begin in a block end on a plane behind it.
+// What the tile needs of the planes about a region, up to whole blocks of them: what is turned together, as
+// much as lies in a line of the cache, in parts, for rays move on sideways. What begins in a part may end on
+// a plane behind it.
 template <class Code>
-VoxelRegion Tile<Code>::with_block(const VoxelRegion& region) const {
-    constexpr std::int64_t block = 2 * micro_edge;
+typename Tile<Code>::Block Tile<Code>::block_of(const VoxelRegion& region) const {
+    constexpr std::int64_t edge = 2 * micro_edge;
+    constexpr std::int64_t planes = edge * static_cast<std::int64_t>(std::tuple_size_v<Block>);
     const auto axis = static_cast<std::size_t>(plan_.face().axis);
-    const std::int64_t last = block - (classification_.segments ? 0 : 1);
-    const std::int64_t lo = std::max(region.lo[2] / block * block, nodes_.lo[axis]);
-    const std::int64_t hi = std::max(region.hi[2], std::min(lo + last, nodes_.hi[axis]));
-    VoxelRegion more = between_planes(lo, hi);
-    for (std::size_t n = 0; n < 2; ++n) {
-        more.lo[n] = std::min(more.lo[n], region.lo[n]);
-        more.hi[n] = std::max(more.hi[n], region.hi[n]);
+    const std::int64_t last = edge - (classification_.segments || !plan_.on_planes() ? 0 : 1);
+    const auto clamped = [&](std::int64_t w) { return std::clamp(w, nodes_.lo[axis], nodes_.hi[axis]); };
+    std::int64_t lo = region.lo[2] / planes * planes;
+    Block block;
+    for (VoxelRegion& part : block) {
+        part = between_planes(clamped(lo), clamped(lo + last));
+        lo += edge;
     }
-    return more;
+    return block;
 }
 
-// What the tile will need and may fetch meanwhile: of the planes behind a region's, as many again. Where
-// voxels are adjacent along the principal axis, a line of the cache holds those of more planes: then a part
-// of what the tile needs a line later.
+// What the tile will need and may fetch meanwhile: of the planes behind a region's, as many again.
 template <class Code>
 VoxelRegion Tile<Code>::behind(const VoxelRegion& region) const {
-    constexpr std::int64_t planes_of_line = cache_line / static_cast<std::int64_t>(sizeof(Code));
-    constexpr std::int64_t parts = planes_of_line / micro_edge;
     const auto axis = static_cast<std::size_t>(plan_.face().axis);
-    const bool adjacent = axis == 0;
-    const std::int64_t away = plan_.face().sign * (adjacent ? planes_of_line : micro_edge);
+    const std::int64_t away = plan_.face().sign * micro_edge;
     const auto plane = [&](std::int64_t w) { return std::clamp(w + away, nodes_.lo[axis], nodes_.hi[axis]); };
-    VoxelRegion next = between_planes(plane(region.lo[2]), plane(region.hi[2]));
-    if (adjacent) {
-        const std::int64_t part = region.lo[2] / micro_edge % parts;
-        const std::int64_t first = next.lo[1], rows = next.hi[1] - first + 1;
-        next.lo[1] = first + rows * part / parts;
-        next.hi[1] = first + rows * (part + 1) / parts - 1;
-    }
-    return next;
+    return between_planes(plane(region.lo[2]), plane(region.hi[2]));
 }
 
 template VoxelRegion Tile<std::uint8_t>::region_of(Slices, std::span<const std::int64_t>,
@@ -143,14 +133,14 @@ template VoxelRegion Tile<std::uint8_t>::region_of(Slices, std::span<const std::
 template VoxelRegion Tile<std::uint8_t>::region_of(const MicroRun&, const MicroRun&,
                                                    std::span<const std::int64_t>) const;
 template VoxelRegion Tile<std::uint8_t>::between_planes(std::int64_t, std::int64_t) const;
-template VoxelRegion Tile<std::uint8_t>::with_block(const VoxelRegion&) const;
+template Tile<std::uint8_t>::Block Tile<std::uint8_t>::block_of(const VoxelRegion&) const;
 template VoxelRegion Tile<std::uint8_t>::behind(const VoxelRegion&) const;
 template VoxelRegion Tile<std::uint16_t>::region_of(Slices, std::span<const std::int64_t>,
                                                     const volume::Box&) const;
 template VoxelRegion Tile<std::uint16_t>::region_of(const MicroRun&, const MicroRun&,
                                                     std::span<const std::int64_t>) const;
 template VoxelRegion Tile<std::uint16_t>::between_planes(std::int64_t, std::int64_t) const;
-template VoxelRegion Tile<std::uint16_t>::with_block(const VoxelRegion&) const;
+template Tile<std::uint16_t>::Block Tile<std::uint16_t>::block_of(const VoxelRegion&) const;
 template VoxelRegion Tile<std::uint16_t>::behind(const VoxelRegion&) const;
 
 }  // namespace shearwater::shear

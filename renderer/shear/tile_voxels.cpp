@@ -1,6 +1,8 @@
 #include "renderer/shear/tile_voxels.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "renderer/shear/kernel.h"
 #include "renderer/shear/transpose.h"
@@ -16,27 +18,34 @@ bool VoxelRegion::contains(const VoxelRegion& inner) const {
     return true;
 }
 
+void VoxelRegion::add(const VoxelRegion& other) {
+    for (std::size_t n = 0; n < 3; ++n) {
+        lo[n] = std::min(lo[n], other.lo[n]);
+        hi[n] = std::max(hi[n], other.hi[n]);
+    }
+}
+
 template <class Code>
 TileVoxels<Code>::TileVoxels(const CodeVolume& volume, const FacePlan& plan)
     : volume_(volume),
       codes_(volume.codes<Code>()),
-      axes_{plan.fast_axis(), plan.slow_axis(), plan.face().axis},
-      copied_{{0, 0, 0}, {-1, -1, -1}} {}
+      axes_{plan.fast_axis(), plan.slow_axis(), plan.face().axis} {}
 
 template <class Code>
-typename TileVoxels<Code>::Place TileVoxels<Code>::find(const VoxelRegion& region, const VoxelRegion& more) {
-    if (axes_[2] != 0) {
+typename TileVoxels<Code>::Place TileVoxels<Code>::find(const VoxelRegion& region,
+                                                        std::span<const VoxelRegion> more) {
+    if (!turns()) {
         volume::Index3 at;
         for (std::size_t n = 0; n < 3; ++n) {
             at[static_cast<std::size_t>(axes_[n])] = region.lo[n];
         }
         return {&codes_[volume_.offset(at)], volume_.stride(axes_[1]), volume_.stride(axes_[2])};
     }
-    if (!copied_.contains(region)) {
-        turn(more);
+    if (std::ranges::none_of(copied_, [&](const VoxelRegion& part) { return part.contains(region); })) {
+        turn(region, more);
     }
-    const std::ptrdiff_t offset = (region.lo[0] - copied_.lo[0]) + (region.lo[1] - copied_.lo[1]) * row_ +
-                                  (region.lo[2] - copied_.lo[2]) * plane_;
+    const std::ptrdiff_t offset = (region.lo[0] - whole_.lo[0]) + (region.lo[1] - whole_.lo[1]) * row_ +
+                                  (region.lo[2] - whole_.lo[2]) * plane_;
     return {&copy_[static_cast<std::size_t>(offset)], row_, plane_};
 }
 
@@ -54,33 +63,60 @@ Ahead TileVoxels<Code>::ahead(const VoxelRegion& region) const {
         return (offset + codes * static_cast<int>(sizeof(Code)) + cache_line - 1) / cache_line;
     };
     // Voxels are adjacent along axis 0: the fast one, or, where they are to be turned, the principal one.
-    const std::size_t row = axes_[2] == 0 ? 0 : 1;
-    const std::size_t plane = axes_[2] == 0 ? 1 : 2;
+    const std::size_t row = turns() ? 0 : 1;
+    const std::size_t plane = turns() ? 1 : 2;
     return {.first = first,
             .row_stride = bytes(volume_.stride(axes_[row])),
             .plane_stride = bytes(volume_.stride(axes_[plane])),
-            .lines = lines(axes_[2] == 0 ? count(2) : count(0)),
+            .lines = lines(turns() ? count(2) : count(0)),
             .rows = count(row),
             .planes = count(plane)};
 }
 
-// Here the fast axis is 1, the slow one 2.
 template <class Code>
-void TileVoxels<Code>::turn(const VoxelRegion& region) {
-    const auto count = [&](std::size_t n) { return region.hi[n] - region.lo[n] + 1; };
+void TileVoxels<Code>::turn(const VoxelRegion& region, std::span<const VoxelRegion> more) {
+    copied_.assign(more.begin(), more.end());
+    if (std::ranges::none_of(more, [&](const VoxelRegion& part) { return part.contains(region); })) {
+        copied_.push_back(region);
+    }
+    whole_ = copied_.front();
+    for (const VoxelRegion& part : copied_) {
+        whole_.add(part);
+    }
+    const auto count = [&](std::size_t n) { return whole_.hi[n] - whole_.lo[n] + 1; };
     // Whole blocks are written: there has to be room for the last of them, along both axes.
     constexpr std::int64_t block = 16;
     row_ = (count(0) + 2 * block - 1) / block * block;
     plane_ = row_ * (count(1) + 1);
     copy_.resize(static_cast<std::size_t>(plane_ * (count(2) + block)) + voxel_padding);
-    copied_ = region;
-    shear::turn(Stack<Code>{.first = &codes_[volume_.offset({region.lo[2], region.lo[0], region.lo[1]})],
-                            .row_stride = volume_.stride(1),
-                            .plane_stride = volume_.stride(2),
-                            .columns = static_cast<int>(count(2)),
-                            .rows = static_cast<int>(count(0)),
-                            .planes = static_cast<int>(count(1))},
-                copy_.data(), plane_, row_);
+    for (std::int64_t v = whole_.lo[1]; v <= whole_.hi[1]; ++v) {
+        const VoxelRegion wanted = wanted_of_plane(v);
+        const auto [f0, w0] = std::pair(wanted.lo[0], wanted.lo[2]);
+        shear::turn(Matrix<Code>{.first = &codes_[volume_.offset({w0, f0, v})],
+                                 .row_stride = volume_.stride(1),
+                                 .columns = static_cast<int>(wanted.hi[2] - w0 + 1),
+                                 .rows = static_cast<int>(wanted.hi[0] - f0 + 1)},
+                    &copy_[static_cast<std::size_t>((f0 - whole_.lo[0]) + (v - whole_.lo[1]) * row_ +
+                                                    (w0 - whole_.lo[2]) * plane_)],
+                    plane_, v < whole_.hi[1] ? ahead(wanted_of_plane(v + 1)) : Ahead{});
+    }
+}
+
+// Of a plane across the slow axis what some part has of it: the parts' planes follow one another. Here the
+// fast axis is 1, the slow one 2.
+template <class Code>
+VoxelRegion TileVoxels<Code>::wanted_of_plane(std::int64_t v) const {
+    std::optional<VoxelRegion> wanted;
+    for (const VoxelRegion& part : copied_) {
+        if (part.lo[1] <= v && v <= part.hi[1]) {
+            wanted = wanted.value_or(part);
+            wanted->add(part);
+        }
+    }
+    // Parts that follow one another meet: no plane is between them.
+    VoxelRegion plane = wanted.value_or(whole_);
+    plane.lo[1] = plane.hi[1] = v;
+    return plane;
 }
 
 template class TileVoxels<std::uint8_t>;

@@ -19,6 +19,7 @@ struct VoxelRegion {
     std::array<std::int64_t, 3> lo, hi;
 
     bool contains(const VoxelRegion& inner) const;
+    void add(const VoxelRegion& other);  // so that it contains that too
 };
 
 template <class Code>
@@ -27,25 +28,29 @@ class TileVoxels {
     // Both have to outlive it.
     TileVoxels(const CodeVolume& volume, const FacePlan& plan);
 
+    // Whether they are turned, and fetched for that.
+    bool turns() const { return axes_[2] == 0; }
     // Where the voxels of a region lie: that of plane w of the principal axis, first along the others, at
     // first + (w - region.lo[2]) * plane_stride, those along the fast axis adjacent.
     struct Place {
         const Code* first;
         std::ptrdiff_t row_stride, plane_stride;
     };
-    // `more` holds the region and what may be asked for next: where voxels have to be turned, all of it is.
-    Place find(const VoxelRegion& region, const VoxelRegion& more);
+    // `more` is what may be asked for next: where voxels have to be turned, all of it is.
+    Place find(const VoxelRegion& region, std::span<const VoxelRegion> more);
     // What of the volume a region will take to find.
     Ahead ahead(const VoxelRegion& region) const;
 
   private:
-    void turn(const VoxelRegion& region);
+    void turn(const VoxelRegion& region, std::span<const VoxelRegion> more);
+    VoxelRegion wanted_of_plane(std::int64_t v) const;
 
     const CodeVolume& volume_;
     std::span<const Code> codes_;
     std::array<int, 3> axes_;
     std::vector<Code> copy_;
-    VoxelRegion copied_;
+    std::vector<VoxelRegion> copied_;
+    VoxelRegion whole_{};                 // about them, as the copy is laid out
     std::ptrdiff_t row_ = 0, plane_ = 0;  // of the copy
 };
 

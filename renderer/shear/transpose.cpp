@@ -7,6 +7,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "renderer/shear/fetching.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace shearwater::shear::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -81,43 +83,45 @@ HWY_INLINE void turn_tall_block(const std::uint8_t* from, std::ptrdiff_t stride,
 }
 #endif
 
-void turn_8(const Stack<std::uint8_t>& from, std::uint8_t* to, std::ptrdiff_t column_stride,
-            std::ptrdiff_t plane_stride) {
+void turn_8(const Matrix<std::uint8_t>& from, std::uint8_t* to, std::ptrdiff_t column_stride,
+            const Ahead& ahead) {
     // A few columns over are moved one by one, as are rows.
     constexpr int few = 4;
     const int block_columns = (from.columns + side - 1 - few) / side * side;
     const int block_rows = (from.rows + side - 1 - few) / side * side;
-    for (int plane = 0; plane < from.planes; ++plane) {
-        const std::uint8_t* const matrix = from.first + plane * from.plane_stride;
-        std::uint8_t* const turned = to + plane * plane_stride;
-        const auto move = [&](int column, int row) HWY_ATTR {
-            turned[column * column_stride + row] = matrix[row * from.row_stride + column];
-        };
-        int row = 0;
+    const auto move = [&](int column, int row) HWY_ATTR {
+        to[column * column_stride + row] = from.first[row * from.row_stride + column];
+    };
+    int row = 0;
 #if HWY_TARGET != HWY_SCALAR && HWY_CAP_GE512
-        for (; row + tall <= from.rows; row += tall) {
-            for (int column = 0; column < block_columns; column += side) {
-                turn_tall_block(matrix + row * from.row_stride + column, from.row_stride,
-                                turned + column * column_stride + row, column_stride);
-            }
+    // The last of several blocks lies partly over the one before.
+    Fetching fetching(ahead, (from.rows + tall - 1) / tall * (block_columns / side));
+    for (; from.rows >= tall && row < from.rows; row += tall) {
+        const int first = std::min(row, from.rows - tall);
+        for (int column = 0; column < block_columns; column += side) {
+            fetching.step<Into::second>();
+            turn_tall_block(from.first + first * from.row_stride + column, from.row_stride,
+                            to + column * column_stride + first, column_stride);
         }
+    }
+#else
+    Fetching fetching(ahead, block_rows / side * (block_columns / side));
 #endif
-        for (; row < block_rows; row += side) {
-            for (int column = 0; column < block_columns; column += side) {
-                turn_block(matrix + row * from.row_stride + column, from.row_stride,
-                           std::min(side, from.rows - row), turned + column * column_stride + row,
-                           column_stride);
-            }
+    for (; row < block_rows; row += side) {
+        for (int column = 0; column < block_columns; column += side) {
+            fetching.step<Into::second>();
+            turn_block(from.first + row * from.row_stride + column, from.row_stride,
+                       std::min(side, from.rows - row), to + column * column_stride + row, column_stride);
         }
-        for (; row < from.rows; ++row) {
-            for (int column = 0; column < from.columns; ++column) {
-                move(column, row);
-            }
+    }
+    for (; row < from.rows; ++row) {
+        for (int column = 0; column < from.columns; ++column) {
+            move(column, row);
         }
-        for (int column = block_columns; column < from.columns; ++column) {
-            for (int n = 0; n < from.rows; ++n) {
-                move(column, n);
-            }
+    }
+    for (int column = block_columns; column < from.columns; ++column) {
+        for (int n = 0; n < from.rows; ++n) {
+            move(column, n);
         }
     }
 }
@@ -131,21 +135,20 @@ namespace shearwater::shear {
 HWY_EXPORT(turn_8);
 
 template <>
-void turn(const Stack<std::uint8_t>& from, std::uint8_t* to, std::ptrdiff_t column_stride,
-          std::ptrdiff_t plane_stride) {
-    HWY_DYNAMIC_DISPATCH(turn_8)(from, to, column_stride, plane_stride);
+void turn(const Matrix<std::uint8_t>& from, std::uint8_t* to, std::ptrdiff_t column_stride,
+          const Ahead& ahead) {
+    HWY_DYNAMIC_DISPATCH(turn_8)(from, to, column_stride, ahead);
 }
 
 template <>
-void turn(const Stack<std::uint16_t>& from, std::uint16_t* to, std::ptrdiff_t column_stride,
-          std::ptrdiff_t plane_stride) {
-    for (int plane = 0; plane < from.planes; ++plane) {
-        for (int row = 0; row < from.rows; ++row) {
-            const std::uint16_t* const codes = from.first + plane * from.plane_stride + row * from.row_stride;
-            std::uint16_t* const turned = to + plane * plane_stride + row;
-            for (int column = 0; column < from.columns; ++column) {
-                turned[column * column_stride] = codes[column];
-            }
+void turn(const Matrix<std::uint16_t>& from, std::uint16_t* to, std::ptrdiff_t column_stride,
+          const Ahead& ahead) {
+    Fetching fetching(ahead, from.rows);
+    for (int row = 0; row < from.rows; ++row) {
+        fetching.step<Into::second>();
+        const std::uint16_t* const codes = from.first + row * from.row_stride;
+        for (int column = 0; column < from.columns; ++column) {
+            to[column * column_stride + row] = codes[column];
         }
     }
 }

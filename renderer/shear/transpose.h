@@ -4,21 +4,23 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "renderer/shear/kernel.h"
+
 namespace shearwater::shear {
 
-// A part of a stack of `planes` matrices of rows x columns.
+// A part of a matrix.
 template <class Code>
-struct Stack {
+struct Matrix {
     const Code* first;
-    std::ptrdiff_t row_stride, plane_stride;
-    int columns, rows, planes;
+    std::ptrdiff_t row_stride;
+    int columns, rows;
 };
 
-// Writes the stack with columns outermost and rows innermost: element (column, row, plane) goes to
-// to[column * column_stride + plane * plane_stride + row]. Both strides are multiples of 16, and up to 15
-// codes behind a row's last may be overwritten, before its own are; of the stack, up to 15 codes behind
-// a row's last may be read.
+// Writes its transpose: element (column, row) goes to to[column * column_stride + row]. The stride is a
+// multiple of 16, and up to 15 codes behind a column's last may be overwritten, before its own are, and up to
+// 15 columns behind the last; of the matrix, up to 15 codes behind a row's last may be read. Fetches what is
+// ahead meanwhile.
 template <class Code>
-void turn(const Stack<Code>& from, Code* to, std::ptrdiff_t column_stride, std::ptrdiff_t plane_stride);
+void turn(const Matrix<Code>& from, Code* to, std::ptrdiff_t column_stride, const Ahead& ahead);
 
 }  // namespace shearwater::shear

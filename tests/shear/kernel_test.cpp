@@ -189,6 +189,7 @@ struct Trial {
         for (Slice<Code>& slice : slab.slices) {
             slice.lengths = scaled.data();
         }
+        slab.faint = *std::ranges::max_element(scaled) * OpacityTable::largest <= few_halvings;
         const Outcome expected = run(table, composite_slab_by_definition<Code>);
         const Outcome got = run(table, composite_slab<Code>);
         EXPECT_EQ(got.taken, expected.taken);
@@ -212,6 +213,11 @@ view::TransferFunction smooth() {
 
 view::TransferFunction in_one_hue() {
     return {.opacity_pins = smooth().opacity_pins, .colour_pins = {{0, {0, 0, 0}}, {0.7, {0.8, 0.4, 0.2}}}};
+}
+
+// Every code has a little opacity.
+view::TransferFunction faint() {
+    return {.opacity_pins = {view::Flat{0.02}}, .colour_pins = smooth().colour_pins};
 }
 
 template <class Code>
@@ -252,6 +258,7 @@ TEST_P(EveryTarget, CompositesAsDefined) {
         expect_definition<std::uint8_t>(false, between_nodes);
         expect_definition<std::uint8_t>(true, between_nodes);
     }
+    expect_definition<std::uint8_t>(false, false, faint());
     expect_definition<std::uint8_t>(false, false, in_one_hue());
     expect_definition<std::uint8_t>(true, true, in_one_hue());
     expect_definition<std::uint16_t>(false, true);

@@ -1,0 +1,52 @@
+#include "renderer/shear/transpose.h"
+
+#include <gtest/gtest.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace shearwater::shear {
+namespace {
+
+// Every element is where it belongs, and nothing before the first and beyond what may be overwritten is
+// touched.
+template <class Code>
+void expect_turned(int columns, int rows) {
+    constexpr int beyond = 15;
+    const std::ptrdiff_t row_stride = columns + beyond + 3;
+    const std::ptrdiff_t column_stride = (rows + beyond + 16) / 16 * 16;
+    std::mt19937 random(static_cast<unsigned>(columns * 1000 + rows));
+    std::vector<Code> matrix(static_cast<std::size_t>(row_stride * rows));
+    std::generate(matrix.begin(), matrix.end(), [&] { return static_cast<Code>(random()); });
+    constexpr Code untouched = 77;
+    std::vector<Code> turned(static_cast<std::size_t>(column_stride * (columns + beyond)) + 2, untouched);
+    turn(Matrix<Code>{matrix.data(), row_stride, columns, rows}, &turned[1], column_stride, Ahead{});
+    EXPECT_EQ(turned.front(), untouched);
+    EXPECT_EQ(turned.back(), untouched);
+    for (int column = 0; column < columns; ++column) {
+        for (int row = 0; row < rows; ++row) {
+            ASSERT_EQ(turned[static_cast<std::size_t>(1 + column * column_stride + row)],
+                      matrix[static_cast<std::size_t>(row * row_stride + column)])
+                << columns << " x " << rows << ": " << column << ", " << row;
+        }
+    }
+}
+
+TEST(Transpose, TurnsMatricesOfEverySize) {
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        hwy::SetSupportedTargetsForTest(target);
+        for (const int columns : {1, 4, 15, 16, 17, 20, 21, 33, 64, 65}) {
+            for (const int rows : {1, 12, 13, 16, 31, 63, 64, 65, 80, 127, 130, 192, 200}) {
+                expect_turned<std::uint8_t>(columns, rows);
+                expect_turned<std::uint16_t>(columns, rows);
+            }
+        }
+    }
+    hwy::SetSupportedTargetsForTest(0);
+}
+
+}  // namespace
+}  // namespace shearwater::shear
