@@ -43,6 +43,10 @@ bool Workers::for_each(std::int64_t count, const std::function<void(std::int64_t
                        const std::stop_token& stop) {
     const std::lock_guard one(one_loop_);
     Loop loop{.count = count, .body = body, .stop = stop};
+    if (count <= 1) {  // not worth waking anyone
+        loop.run();
+        return loop.next.load() >= count;
+    }
     {
         const std::lock_guard lock(mutex_);
         loop_ = &loop;

@@ -32,7 +32,17 @@ struct CellRow {
 
 class Layer {
   public:
-    Layer(const view::Factorisation& factorisation, const Window& window, base::Workers& workers);
+    // Of a window that is yet to be filled: so far nothing of it is lit.
+    Layer(const view::Factorisation& factorisation, const Window& window);
+    Layer(const view::Factorisation& factorisation, const Window& window, base::Workers& workers)
+        : Layer(factorisation, window) {
+        take(window.rect, workers);
+    }
+
+    // A part of the window, in the face's pixels, has been filled, and stays as it is. From then on a cell is
+    // as it will be when all of the window is, if its 16 pixels, as far as the window has them, are in such
+    // parts.
+    void take(const Rect& part, base::Workers& workers);
 
     const view::Face& face() const { return *face_; }
     const Window& window() const { return *window_; }
@@ -46,12 +56,12 @@ class Layer {
     static constexpr int rows_above = 2;
 
   private:
-    std::vector<Range> lit_pixels(base::Workers& workers) const;
-    CellRow row_of_cells(int j, const std::vector<Range>& lit_pixels) const;
+    CellRow row_of_cells(int j) const;
 
     const Window* window_;
     const view::Face* face_;
     Silhouette silhouette_;
+    std::vector<Range> lit_pixels_;  // of each of the window's rows, in the face's pixels
     std::vector<CellRow> rows_;
     Rect lit_;
 };

@@ -8,8 +8,8 @@
 
 #include "common/base/workers.h"
 #include "common/volume/source.h"
-#include "server/head/canvases.h"
 #include "server/head/head.h"
+#include "server/head/pictures.h"
 
 namespace shearwater::service {
 
@@ -30,7 +30,7 @@ class Service {
     std::unique_ptr<volume::VoxelSource> cube_;  // touched by the reading thread only
     std::function<void(head::JobEvent)> tell_;
     base::Workers workers_;
-    head::Canvases canvases_;  // touched by the frames' thread only
+    head::Pictures pictures_;  // touched by the frames' thread only
     boost::asio::thread_pool frames_{1};
     boost::asio::thread_pool reading_{1};
 };
