@@ -15,7 +15,9 @@ namespace shearwater::image::HWY_NAMESPACE {
 namespace {
 
 // Five loops over pixels, the first and plain one of each pair being the definition; where vectors do one,
-// they do as much as fills them, and leave the rest to it.
+// they do as much as fills them, and leave the rest to it. Most parts of a picture of noise are a few pixels
+// long: where there is room, the last three go to and fro a little beyond the part, in whole vectors, and
+// what is written there is written again by the next.
 
 // The first of [i, end) that is like the one after it, which is below `end` too; or `end`.
 std::size_t plain_pair(const Rgba8* pixels, std::size_t i, std::size_t end) {
@@ -59,13 +61,15 @@ std::size_t find_pair(const Rgba8* pixels, std::size_t i, std::size_t end) {
 std::size_t run_end(const Rgba8* pixels, std::size_t i, std::size_t end, const Rgba8& pixel) {
     return plain_run_end(pixels, i, end, pixel);
 }
-void pack(const Rgba8* from, std::size_t count, std::byte* to) {
+void pack(const Rgba8* from, std::size_t count, std::byte* to, std::size_t /*pixels*/,
+          std::size_t /*bytes*/) {
     plain_pack(from, count, to);
 }
-void unpack(const std::byte* from, std::size_t count, Rgba8* to) {
+void unpack(const std::byte* from, std::size_t count, Rgba8* to, std::size_t /*bytes*/,
+            std::size_t /*pixels*/) {
     plain_unpack(from, count, to);
 }
-void fill(Rgba8* to, std::size_t count, const Rgba8& pixel) {
+void fill(Rgba8* to, std::size_t count, const Rgba8& pixel, std::size_t /*pixels*/) {
     plain_fill(to, count, pixel);
 }
 
@@ -113,62 +117,97 @@ std::size_t run_end(const Rgba8* pixels, std::size_t i, std::size_t end, const R
     return plain_run_end(pixels, i, end, pixel);
 }
 
-void pack(const Rgba8* from, std::size_t count, std::byte* to) {
-    const Bytes d;
-    const std::size_t step = hn::Lanes(d);
+// Four pixels, 16 bytes with their alpha and 12 without.
+using Four = hn::FixedTag<std::uint8_t, 16>;
+constexpr std::size_t four = 4, beyond = 16;  // pixels; bytes
+alignas(16) constexpr std::uint8_t packed_lanes[16] = {0,  1,  2,  4,  5,   6,   8,   9,
+                                                       10, 12, 13, 14, 128, 128, 128, 128};
+alignas(16) constexpr std::uint8_t pixel_lanes[16] = {0, 1, 2, 128, 3, 4,  5,  128,
+                                                      6, 7, 8, 128, 9, 10, 11, 128};
+alignas(16) constexpr std::uint8_t opaque[16] = {0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255};
+
+// `pixels` and `bytes`: how many there are at `from` and at `to` in all.
+void pack(const Rgba8* from, std::size_t count, std::byte* to, std::size_t pixels, std::size_t bytes) {
+    const Bytes wide;
+    const std::size_t step = hn::Lanes(wide);
     std::size_t i = 0;
     for (; i + step <= count; i += step) {
         hn::Vec<Bytes> r, g, b, a;
-        hn::LoadInterleaved4(d, &from[i].r, r, g, b, a);
-        hn::StoreInterleaved3(r, g, b, d, reinterpret_cast<std::uint8_t*>(to + rle::colour_bytes * i));
+        hn::LoadInterleaved4(wide, &from[i].r, r, g, b, a);
+        hn::StoreInterleaved3(r, g, b, wide, reinterpret_cast<std::uint8_t*>(to + rle::colour_bytes * i));
     }
-    plain_pack(from + i, count - i, to + rle::colour_bytes * i);
+    if (pixels < count + four || bytes < rle::colour_bytes * count + beyond) {
+        plain_pack(from + i, count - i, to + rle::colour_bytes * i);
+        return;
+    }
+    const Four d;
+    const auto lanes = hn::Load(d, packed_lanes);
+    for (; i < count; i += four) {
+        const auto packed = hn::TableLookupBytesOr0(hn::LoadU(d, &from[i].r), lanes);
+        hn::StoreU(packed, d, reinterpret_cast<std::uint8_t*>(to + rle::colour_bytes * i));
+    }
 }
 
-void unpack(const std::byte* from, std::size_t count, Rgba8* to) {
-    const Bytes d;
-    const std::size_t step = hn::Lanes(d);
+void unpack(const std::byte* from, std::size_t count, Rgba8* to, std::size_t bytes, std::size_t pixels) {
+    const Bytes wide;
+    const std::size_t step = hn::Lanes(wide);
     std::size_t i = 0;
     for (; i + step <= count; i += step) {
         hn::Vec<Bytes> r, g, b;
-        hn::LoadInterleaved3(d, reinterpret_cast<const std::uint8_t*>(from + rle::colour_bytes * i), r, g, b);
-        hn::StoreInterleaved4(r, g, b, hn::Set(d, 255), d, &to[i].r);
+        hn::LoadInterleaved3(wide, reinterpret_cast<const std::uint8_t*>(from + rle::colour_bytes * i), r, g,
+                             b);
+        hn::StoreInterleaved4(r, g, b, hn::Set(wide, 255), wide, &to[i].r);
     }
-    plain_unpack(from + rle::colour_bytes * i, count - i, to + i);
+    if (pixels < count + four || bytes < rle::colour_bytes * count + beyond) {
+        plain_unpack(from + rle::colour_bytes * i, count - i, to + i);
+        return;
+    }
+    const Four d;
+    const auto lanes = hn::Load(d, pixel_lanes), alpha = hn::Load(d, opaque);
+    for (; i < count; i += four) {
+        const auto packed = hn::LoadU(d, reinterpret_cast<const std::uint8_t*>(from + rle::colour_bytes * i));
+        hn::StoreU(hn::Or(hn::TableLookupBytesOr0(packed, lanes), alpha), d, &to[i].r);
+    }
 }
 
-void fill(Rgba8* to, std::size_t count, const Rgba8& pixel) {
+void fill(Rgba8* to, std::size_t count, const Rgba8& pixel, std::size_t pixels) {
     const auto all = hn::BitCast(Bytes(), all_like(pixel));
     const std::size_t step = hn::Lanes(Pixels());
-    std::size_t i = 0;
-    for (; i + step <= count; i += step) {
+    if (pixels < count + step) {
+        plain_fill(to, count, pixel);
+        return;
+    }
+    for (std::size_t i = 0; i < count; i += step) {
         hn::StoreU(all, Bytes(), &to[i].r);
     }
-    plain_fill(to + i, count - i, pixel);
 }
 
 #endif
 
-std::byte* put_stretch(const Rgba8* pixels, std::size_t count, std::byte* to) {
+// Writes the first `count` of the pixels in stretches, and gives their end.
+std::byte* put_stretch(const Rgba8* from, std::size_t count, std::size_t pixels, std::byte* to,
+                       const std::byte* end) {
     while (count > 0) {
         const std::size_t part = std::min(rle::longest_stretch, count);
         *to++ = static_cast<std::byte>(part - 1);
-        pack(pixels, part, to);
-        pixels += part;
+        pack(from, part, to, pixels, static_cast<std::size_t>(end - to));
+        from += part;
         count -= part;
+        pixels -= part;
         to += rle::colour_bytes * part;
     }
     return to;
 }
 
-std::size_t encode(const Rgba8* pixels, std::size_t count, std::byte* out) {
-    std::byte* to = out;
+std::size_t encode(const Rgba8* pixels, std::size_t count, std::span<std::byte> out) {
+    std::byte* to = out.data();
+    const std::byte* const end_of_out = out.data() + out.size();
     std::size_t stretch_begin = 0;
     while (true) {
         const std::size_t run = find_pair(pixels, stretch_begin, count);
-        to = put_stretch(pixels + stretch_begin, run - stretch_begin, to);
+        to = put_stretch(pixels + stretch_begin, run - stretch_begin, count - stretch_begin, to, end_of_out);
         if (run == count) {
-            return static_cast<std::size_t>(to - out);
+            return static_cast<std::size_t>(to - out.data());
         }
         const std::size_t longest = run + std::min(rle::longest_run, count - run);
         const std::size_t end = run_end(pixels, run + rle::shortest_run, longest, pixels[run]);
@@ -191,9 +230,10 @@ base::Status decode(std::span<const std::byte> bytes, std::span<Rgba8> pixels) {
         }
         const std::byte* const colours_begin = bytes.data() + part.control_bytes;
         if (part.is_run) {
-            fill(pixels.data(), part.pixels, rle::colour_at(colours_begin));
+            fill(pixels.data(), part.pixels, rle::colour_at(colours_begin), pixels.size());
         } else {
-            unpack(colours_begin, part.pixels, pixels.data());
+            unpack(colours_begin, part.pixels, pixels.data(), bytes.size() - part.control_bytes,
+                   pixels.size());
         }
         bytes = bytes.subspan(part.bytes());
         pixels = pixels.subspan(part.pixels);
@@ -220,7 +260,7 @@ std::size_t rle_bound(std::size_t pixels) {
 
 std::size_t encode_rle(std::span<const Rgba8> pixels, std::span<std::byte> out) {
     base::check(out.size() >= rle_bound(pixels.size()), "the output holds the bound");
-    return HWY_DYNAMIC_DISPATCH(encode)(pixels.data(), pixels.size(), out.data());
+    return HWY_DYNAMIC_DISPATCH(encode)(pixels.data(), pixels.size(), out);
 }
 
 std::size_t encode_rle(std::span<const Rgba8> pixels, std::span<std::byte> out, base::Workers& workers) {
