@@ -19,10 +19,12 @@ namespace {
 // long: where there is room, the last three go to and fro a little beyond the part, in whole vectors, and
 // what is written there is written again by the next.
 
-// The first of [i, end) that is like the one after it, which is below `end` too; or `end`.
-std::size_t plain_pair(const Rgba8* pixels, std::size_t i, std::size_t end) {
-    for (; i + 1 < end; ++i) {
-        if (rle::same_colour(pixels[i], pixels[i + 1])) {
+// The first of [i, end) that is like the next three, which are below `end` too; or `end`.
+std::size_t plain_run_of_four(const Rgba8* pixels, std::size_t i, std::size_t end) {
+    static_assert(rle::least_in_stretch == 4);
+    for (; i + 3 < end; ++i) {
+        if (rle::same_colour(pixels[i], pixels[i + 1]) && rle::same_colour(pixels[i], pixels[i + 2]) &&
+            rle::same_colour(pixels[i], pixels[i + 3])) {
             return i;
         }
     }
@@ -55,8 +57,8 @@ void plain_fill(Rgba8* to, std::size_t count, const Rgba8& pixel) {
 
 #if HWY_TARGET == HWY_SCALAR
 
-std::size_t find_pair(const Rgba8* pixels, std::size_t i, std::size_t end) {
-    return plain_pair(pixels, i, end);
+std::size_t find_run_of_four(const Rgba8* pixels, std::size_t i, std::size_t end) {
+    return plain_run_of_four(pixels, i, end);
 }
 std::size_t run_end(const Rgba8* pixels, std::size_t i, std::size_t end, const Rgba8& pixel) {
     return plain_run_end(pixels, i, end, pixel);
@@ -92,16 +94,18 @@ HWY_INLINE hn::Vec<Pixels> colours(const Rgba8* from) {
     return hn::And(hn::BitCast(Pixels(), hn::LoadU(Bytes(), &from->r)), all_like({255, 255, 255, 0}));
 }
 
-std::size_t find_pair(const Rgba8* pixels, std::size_t i, std::size_t end) {
+std::size_t find_run_of_four(const Rgba8* pixels, std::size_t i, std::size_t end) {
     const Pixels d;
     const std::size_t step = hn::Lanes(d);
-    for (; i + step + 1 <= end; i += step) {
-        const auto like = hn::Eq(colours(pixels + i), colours(pixels + i + 1));
-        if (const auto first = hn::FindFirstTrue(d, like); first >= 0) {
+    for (; i + step + 3 <= end; i += step) {
+        const auto here = colours(pixels + i), second = colours(pixels + i + 1);
+        const auto third = colours(pixels + i + 2), fourth = colours(pixels + i + 3);
+        const auto other = hn::Or(hn::Or(hn::Xor(here, second), hn::Xor(here, third)), hn::Xor(here, fourth));
+        if (const auto first = hn::FindFirstTrue(d, hn::Eq(other, hn::Zero(d))); first >= 0) {
             return i + static_cast<std::size_t>(first);
         }
     }
-    return plain_pair(pixels, i, end);
+    return plain_run_of_four(pixels, i, end);
 }
 
 std::size_t run_end(const Rgba8* pixels, std::size_t i, std::size_t end, const Rgba8& pixel) {
@@ -202,18 +206,18 @@ std::byte* put_stretch(const Rgba8* from, std::size_t count, std::size_t pixels,
 std::size_t encode(const Rgba8* pixels, std::size_t count, std::span<std::byte> out) {
     std::byte* to = out.data();
     const std::byte* const end_of_out = out.data() + out.size();
-    std::size_t stretch_begin = 0;
-    while (true) {
-        const std::size_t run = find_pair(pixels, stretch_begin, count);
-        to = put_stretch(pixels + stretch_begin, run - stretch_begin, count - stretch_begin, to, end_of_out);
-        if (run == count) {
-            return static_cast<std::size_t>(to - out.data());
+    for (std::size_t begin = 0; begin < count;) {
+        const std::size_t longest = begin + std::min(rle::longest_run, count - begin);
+        std::size_t end = run_end(pixels, begin + 1, longest, pixels[begin]);
+        if (end - begin >= rle::shortest_run) {
+            to = rle::put_colour(pixels[begin], rle::put_run_control(end - begin, to));
+        } else {
+            end = find_run_of_four(pixels, end, count);
+            to = put_stretch(pixels + begin, end - begin, count - begin, to, end_of_out);
         }
-        const std::size_t longest = run + std::min(rle::longest_run, count - run);
-        const std::size_t end = run_end(pixels, run + rle::shortest_run, longest, pixels[run]);
-        to = rle::put_colour(pixels[run], rle::put_run_control(end - run, to));
-        stretch_begin = end;
+        begin = end;
     }
+    return static_cast<std::size_t>(to - out.data());
 }
 
 base::Status decode(std::span<const std::byte> bytes, std::span<Rgba8> pixels) {

@@ -39,10 +39,21 @@ TEST(Rle, KnownBytes) {
     EXPECT_EQ(encoded({a}), bytes_of({0x00, 1, 2, 3}));
     EXPECT_EQ(encoded({a, b}), bytes_of({0x01, 1, 2, 3, 4, 5, 6}));
     EXPECT_EQ(encoded({a, a}), bytes_of({0x80, 1, 2, 3}));
-    EXPECT_EQ(encoded({b, a, a, a, b}), bytes_of({0x00, 4, 5, 6, 0x81, 1, 2, 3, 0x00, 4, 5, 6}));
+    EXPECT_EQ(encoded({b, a, a, a, a, b}), bytes_of({0x00, 4, 5, 6, 0x82, 1, 2, 3, 0x00, 4, 5, 6}));
+    EXPECT_EQ(encoded({a, a, b, b, b, a}), bytes_of({0x80, 1, 2, 3, 0x81, 4, 5, 6, 0x00, 1, 2, 3}));
+    // A stretch does not end for so little.
+    EXPECT_EQ(encoded({b, a, a, a, b}), bytes_of({0x04, 4, 5, 6, 1, 2, 3, 1, 2, 3, 1, 2, 3, 4, 5, 6}));
     EXPECT_EQ(encoded(Pixels(65, a)), bytes_of({0xbf, 1, 2, 3}));
     EXPECT_EQ(encoded(Pixels(66, a)), bytes_of({0xc0, 0, 1, 2, 3}));
     EXPECT_EQ(encoded(Pixels(66 + 0x3fff, a)), bytes_of({0xff, 0xff, 1, 2, 3}));
+}
+
+// Other coders may end one.
+TEST(Rle, ReadsRunsOfAnyLengthBetweenStretches) {
+    const Rgba8 a{1, 2, 3, 255}, b{4, 5, 6, 255};
+    Pixels pixels(5);
+    ASSERT_TRUE(decode_rle(bytes_of({0x00, 4, 5, 6, 0x81, 1, 2, 3, 0x00, 4, 5, 6}), pixels));
+    EXPECT_EQ(pixels, (Pixels{b, a, a, a, b}));
 }
 
 // By several threads, of pictures too small for that, of whole stretches and not, of runs and of none.
