@@ -1,8 +1,6 @@
 #include "common/image/layer.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 
 namespace shearwater::image {
@@ -20,37 +18,13 @@ Range bounding(const Range& a, const Range& b) {
     return {std::min(a.first, b.first), std::max(a.end, b.end)};
 }
 
-bool is_lit(std::span<const RgbaF> pixels) {
-    std::uint64_t bits = 0;
-    for (const RgbaF& pixel : pixels) {
-        const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(pixel);
-        bits |= halves[0] | halves[1];
-    }
-    return bits != 0;
-}
-
-// From the first pixel that is not transparent to the last. Most of those that are go a block at a time.
-Range lit_of(std::span<const RgbaF> row) {
-    std::size_t begin = 0, end = row.size();
-    for (const std::size_t block : {std::size_t{16}, std::size_t{1}}) {
-        while (begin + block <= end && !is_lit(row.subspan(begin, block))) {
-            begin += block;
-        }
-    }
-    for (const std::size_t block : {std::size_t{16}, std::size_t{1}}) {
-        while (begin + block <= end && !is_lit(row.subspan(end - block, block))) {
-            end -= block;
-        }
-    }
-    return {static_cast<int>(begin), static_cast<int>(end)};
-}
-
 }  // namespace
 
 Layer::Layer(const view::Factorisation& factorisation, const Window& window)
     : window_(&window),
       face_(&factorisation.faces[static_cast<std::size_t>(window.face)]),
       silhouette_(factorisation, *face_),
+      lit_blocks_(std::max(window.rect.width(), 0), std::max(window.rect.height(), 0)),
       lit_pixels_(static_cast<std::size_t>(std::max(window.rect.height(), 0))),
       rows_(static_cast<std::size_t>(face_->height) + 3) {}
 
@@ -67,9 +41,9 @@ void Layer::take(const Rect& part, base::Workers& workers) {
             const auto row = window_->pixels.row(j - rect.y0)
                                  .subspan(static_cast<std::size_t>(filled.x0 - rect.x0),
                                           static_cast<std::size_t>(filled.width()));
-            const Range range = lit_of(row);
+            const Range range = lit_blocks_.note(filled.x0 - rect.x0, j - rect.y0, row);
             Range& lit = lit_pixels_[static_cast<std::size_t>(j - rect.y0)];
-            lit = bounding(lit, {range.first + filled.x0, range.end + filled.x0});
+            lit = bounding(lit, {range.first + rect.x0, range.end + rect.x0});
         }
     });
     for (int j = std::max(filled.y0 - 2, -1); j < std::min(filled.y1 + 1, face_->height); ++j) {
