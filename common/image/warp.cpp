@@ -210,7 +210,7 @@ struct Warp::State {
 
     // Cuts the picture into tiles: into whole rows where no band is to be waited for.
     void cut(bool at_once) {
-        constexpr int narrow = 64;
+        constexpr int narrow = 128;
         const view::ImageSize size{picture.width(), picture.height()};
         for (const Rect& rect : tiles_of(size, at_once ? size.width : narrow)) {
             const std::size_t count = at_once ? bands.size() : needs(rect);
