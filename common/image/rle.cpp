@@ -267,26 +267,41 @@ std::size_t encode_rle(std::span<const Rgba8> pixels, std::span<std::byte> out) 
     return HWY_DYNAMIC_DISPATCH(encode)(pixels.data(), pixels.size(), out);
 }
 
-std::size_t encode_rle(std::span<const Rgba8> pixels, std::span<std::byte> out, base::Workers& workers) {
-    base::check(out.size() >= rle_bound(pixels.size()), "the output holds the bound");
-    // In whole stretches, so that the parts' bounds are together that of all.
+base::Buffer encode_rle(std::span<const Rgba8> pixels, base::Workers& workers) {
     constexpr std::size_t least = rle::longest_stretch << 7;
     const std::size_t threads = static_cast<std::size_t>(workers.threads());
-    const std::size_t wanted = std::max(least, (pixels.size() + threads - 1) / threads);
-    const std::size_t each =
-        (wanted + rle::longest_stretch - 1) / rle::longest_stretch * rle::longest_stretch;
-    std::vector<std::size_t> sizes((pixels.size() + each - 1) / each);
-    workers.for_each(static_cast<std::int64_t>(sizes.size()), [&](std::int64_t n) {
-        const std::size_t part = static_cast<std::size_t>(n), begin = part * each;
-        sizes[part] = encode_rle(pixels.subspan(begin, std::min(each, pixels.size() - begin)),
-                                 out.subspan(rle_bound(begin)));
-    });
+    RlePieces pieces(pixels.size(), std::max(least, (pixels.size() + threads - 1) / threads));
+    workers.for_each(static_cast<std::int64_t>(pieces.pieces()),
+                     [&](std::int64_t n) { pieces.code(static_cast<std::size_t>(n), pixels); });
+    return pieces.join();
+}
+
+// In whole stretches, so that the pieces' bounds are together that of all.
+RlePieces::RlePieces(std::size_t pixels, std::size_t piece)
+    : pixels_(pixels),
+      piece_((piece + rle::longest_stretch - 1) / rle::longest_stretch * rle::longest_stretch),
+      sizes_((pixels + piece_ - 1) / piece_),
+      bytes_(rle_bound(pixels)) {}
+
+std::pair<std::size_t, std::size_t> RlePieces::range(std::size_t piece) const {
+    return {piece * piece_, std::min((piece + 1) * piece_, pixels_)};
+}
+
+void RlePieces::code(std::size_t piece, std::span<const Rgba8> pixels) {
+    base::check(pixels.size() == pixels_, "a piece is coded of the picture that it is of");
+    const auto [begin, end] = range(piece);
+    const auto room = std::span(bytes_).subspan(rle_bound(begin), rle_bound(end) - rle_bound(begin));
+    sizes_[piece] = encode_rle(pixels.subspan(begin, end - begin), room);
+}
+
+base::Buffer RlePieces::join() {
     std::size_t end = 0;
-    for (std::size_t part = 0; part < sizes.size(); ++part) {
-        std::memmove(out.data() + end, out.data() + rle_bound(part * each), sizes[part]);
-        end += sizes[part];
+    for (std::size_t piece = 0; piece < sizes_.size(); ++piece) {
+        std::memmove(bytes_.data() + end, bytes_.data() + rle_bound(piece * piece_), sizes_[piece]);
+        end += sizes_[piece];
     }
-    return end;
+    bytes_.resize(end);
+    return std::move(bytes_);
 }
 
 base::Status decode_rle(std::span<const std::byte> bytes, std::span<Rgba8> pixels) {

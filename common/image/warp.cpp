@@ -157,6 +157,7 @@ void warp_row(const Finder& finder, int x0, int y, std::span<RgbaF> row, std::sp
 // What is made at a time: wide, for faces are read fastest along their rows.
 std::vector<Rect> tiles_of(const view::ImageSize& size, int width) {
     constexpr int height = 4;
+    static_assert(Warp::stripe_rows % height == 0);
     std::vector<Rect> tiles;
     for (int y = 0; y < size.height; y += height) {
         for (int x = 0; x < size.width; x += width) {
@@ -191,9 +192,10 @@ struct Warp::State {
     std::span<const view::Band> bands;
     view::Rgb background;
     Image<Rgba8> picture;
-    std::vector<Tile> tiles = {};  // those that are made soonest first
-    std::size_t made = 0;          // of them
-    std::size_t filled = 0;        // bands
+    std::vector<Tile> tiles = {};   // those that are made soonest first
+    std::size_t made = 0;           // of them
+    std::size_t filled = 0;         // bands
+    std::vector<int> to_make = {};  // tiles of each stripe
 
     std::size_t needs(const Rect& tile) const {
         const auto source = finder.source(tile);
@@ -220,7 +222,15 @@ struct Warp::State {
                 tiles.push_back({count, rect});
             }
         }
+        to_make.resize(static_cast<std::size_t>((size.height + stripe_rows - 1) / stripe_rows));
+        for (const Tile& tile : tiles) {
+            ++to_make[stripe_of(tile)];
+        }
         std::ranges::stable_sort(tiles, {}, &Tile::needs);
+    }
+
+    static std::size_t stripe_of(const Tile& tile) {
+        return static_cast<std::size_t>(tile.rect.y0 / stripe_rows);
     }
 
     void make(const Rect& tile) {
@@ -245,7 +255,7 @@ Warp::Warp(const Factorisation& factorisation, std::span<const Window> windows,
 
 Warp::~Warp() = default;
 
-void Warp::advance(std::size_t filled, base::Workers& workers) {
+std::vector<std::size_t> Warp::advance(std::size_t filled, base::Workers& workers) {
     State& state = *state_;
     if (state.tiles.empty()) {
         state.cut(filled == state.bands.size());
@@ -258,11 +268,25 @@ void Warp::advance(std::size_t filled, base::Workers& workers) {
     const auto count = later - ready.begin();
     workers.for_each(count, [&](std::int64_t n) { state.make(ready[static_cast<std::size_t>(n)].rect); });
     state.made += static_cast<std::size_t>(count);
+    std::vector<std::size_t> whole;
+    for (const State::Tile& tile : ready.first(static_cast<std::size_t>(count))) {
+        if (--state.to_make[State::stripe_of(tile)] == 0) {
+            whole.push_back(State::stripe_of(tile));
+        }
+    }
+    return whole;
+}
+
+const Image<Rgba8>& Warp::picture() const {
+    return state_->picture;
+}
+
+bool Warp::done() const {
+    return !state_->tiles.empty() && state_->made == state_->tiles.size();
 }
 
 Image<Rgba8> Warp::take() {
-    base::check(!state_->tiles.empty() && state_->made == state_->tiles.size(),
-                "a picture is taken when all bands are there");
+    base::check(done(), "a picture is taken when all bands are there");
     return std::move(state_->picture);
 }
 

@@ -2,6 +2,7 @@
 // From the intermediate images of a view to its picture: the last stage, done once, at the head.
 
 #include <memory>
+#include <vector>
 
 #include "common/base/workers.h"
 #include "common/image/image.h"
@@ -43,9 +44,16 @@ class Warp {
     Warp(const Warp&) = delete;
     Warp& operator=(const Warp&) = delete;
 
-    // The first `filled` bands, at least as many as before, are filled and stay as they are.
-    void advance(std::size_t filled, base::Workers& workers);
-    // Once all are.
+    // So many rows of the picture are a stripe, or fewer in its last.
+    static constexpr int stripe_rows = 128;
+
+    // The first `filled` bands, at least as many as before, are filled and stay as they are. Gives the
+    // stripes that are whole with this, each once.
+    std::vector<std::size_t> advance(std::size_t filled, base::Workers& workers);
+    // Of which the rows of whole stripes have their pixels.
+    const Image<Rgba8>& picture() const;
+    bool done() const;
+    // Once it is done.
     Image<Rgba8> take();
 
   private:

@@ -39,18 +39,19 @@ void Service::perform(head::Job job) {
 
 void Service::finish(head::Finish& job) {
     pictures_.lay(job.merge, *job.view, workers_);
-    const auto picture = pictures_.take(job.merge.frame->number);
+    auto picture = pictures_.take(job.merge.frame->number);
     pb::Frame frame;
     frame.set_number(job.merge.frame->number);
     frame.set_revision(job.view->revision);
     frame.set_sketch(job.sketch);
     node::put(job.merge.account.missing, *frame.mutable_missing());
     const wire::Time encode_begin = std::chrono::steady_clock::now();
-    wire::Message message = wire::frame_message(std::move(frame), picture.image, job.view->deflate, workers_);
+    wire::Message message =
+        wire::frame_message(std::move(frame), job.view->size, std::move(picture.coded), job.view->deflate);
     pb::FrameStats* const stats = std::get<pb::Frame>(message.body).mutable_stats();
     *stats->mutable_leaves() = job.merge.account.stats;
     stats->set_warp_seconds(picture.warp_seconds);
-    stats->set_encode_seconds(base::seconds_since(encode_begin));
+    stats->set_encode_seconds(picture.encode_seconds + base::seconds_since(encode_begin));
     stats->set_total_seconds(base::seconds_since(job.asked));
     tell_(head::Finished{job.merge.frame->number, std::move(message)});
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/image/rle.h"
 #include "protocol/wire/picture.h"
 
 namespace shearwater::deploy {
@@ -50,9 +51,10 @@ wire::NetEvent frame_of(std::uint64_t revision) {
     pb::Frame frame;
     frame.set_number(revision);
     frame.set_revision(revision);
-    return wire::Received{.link = wire::LinkId{1},
-                          .message = wire::frame_message(
-                              frame, image::Image<image::Rgba8>(size.width, size.height), false, workers)};
+    const image::Image<image::Rgba8> picture(size.width, size.height);
+    return wire::Received{
+        .link = wire::LinkId{1},
+        .message = wire::frame_message(frame, size, image::encode_rle(picture.pixels(), workers), false)};
 }
 
 TEST(Still, TurnsFromPictureToPicture) {

@@ -68,13 +68,35 @@ TEST(Rle, InPartsKeepsToTheBound) {
                 pixel = {static_cast<std::uint8_t>(colour), static_cast<std::uint8_t>(colour >> 8),
                          static_cast<std::uint8_t>(colour >> 16), 255};
             }
-            Bytes out(rle_bound(n));
-            out.resize(encode_rle(pixels, out, workers));
+            const base::Buffer out = encode_rle(pixels, workers);
+            EXPECT_LE(out.size(), rle_bound(n));
             Pixels back(n);
             ASSERT_TRUE(decode_rle(out, back)) << n;
             EXPECT_EQ(back, pixels) << n << " of " << colours;
         }
     }
+}
+
+TEST(Rle, PiecesComeInAnyOrder) {
+    std::mt19937 random(4);
+    Pixels pixels(5000);
+    for (Rgba8& pixel : pixels) {
+        pixel = {static_cast<std::uint8_t>(random() % 2 == 0 ? random() : 7), 3, 5, 255};
+    }
+    RlePieces pieces(pixels.size(), 700);  // 768 by whole stretches
+    ASSERT_EQ(pieces.pieces(), 7U);
+    EXPECT_EQ(pieces.range(6), (std::pair<std::size_t, std::size_t>{4608, 5000}));
+    Bytes expected;
+    for (const std::size_t piece : {3, 0, 6, 5, 1, 4, 2}) {
+        pieces.code(piece, pixels);
+    }
+    for (std::size_t piece = 0; piece < 7; ++piece) {
+        const auto [begin, end] = pieces.range(piece);
+        const Bytes one = encoded(Pixels(pixels.begin() + static_cast<std::ptrdiff_t>(begin),
+                                         pixels.begin() + static_cast<std::ptrdiff_t>(end)));
+        expected.insert(expected.end(), one.begin(), one.end());
+    }
+    EXPECT_TRUE(std::ranges::equal(pieces.join(), expected));
 }
 
 TEST(Rle, AlphaIsNotSent) {

@@ -157,7 +157,7 @@ TEST(Warp, TakesWindowsSmallerThanTheFace) {
 class BandByBand {
   public:
     BandByBand(const Camera& camera, const ImageSize& size, const Factorisation& f)
-        : whole_(patterned(f)), bands_(view::bands_of(f)) {
+        : whole_(patterned(f)), bands_(view::bands_of(f)), seen_(size.width, size.height) {
         constexpr float nan = std::numeric_limits<float>::quiet_NaN();
         for (const Window& window : whole_) {
             windows_.push_back({window.face, window.rect, {window.rect.width(), window.rect.height()}});
@@ -167,7 +167,13 @@ class BandByBand {
     }
     void fill(std::size_t band) {
         put(band, whole_);
-        warp_->advance(band + 1, workers_);
+        for (const std::size_t stripe : warp_->advance(band + 1, workers_)) {
+            const int begin = static_cast<int>(stripe) * Warp::stripe_rows;
+            for (int y = begin; y < std::min(begin + Warp::stripe_rows, seen_.height()); ++y) {
+                std::ranges::copy(warp_->picture().row(y), seen_.row(y).begin());
+            }
+            ++stripes_;
+        }
     }
     // What is still resampled from it is seen.
     void spoil(std::size_t band) {
@@ -179,6 +185,9 @@ class BandByBand {
     const std::vector<Window>& whole() const { return whole_; }
     std::size_t bands() const { return bands_.size(); }
     Image<Rgba8> take() { return warp_->take(); }
+    // The picture, each stripe as it was when it was said to be whole, and how many were.
+    const Image<Rgba8>& seen() const { return seen_; }
+    int stripes() const { return stripes_; }
 
     static constexpr view::Rgb background{0.1, 0.2, 0.3};
 
@@ -198,6 +207,8 @@ class BandByBand {
     std::vector<Window> whole_, windows_;
     std::vector<view::Band> bands_;
     std::optional<Warp> warp_;
+    Image<Rgba8> seen_;
+    int stripes_ = 0;
 };
 
 // From all around, so that bands are rows, from top or bottom, or columns, of one face or of several.
@@ -218,6 +229,8 @@ TEST(Warp, IsTheSameBandByBand) {
                 const auto picture = bands.take();
                 EXPECT_TRUE(std::ranges::equal(picture.pixels(), at_once.pixels()))
                     << "elevation " << elevation << ", distance " << distance;
+                EXPECT_TRUE(std::ranges::equal(bands.seen().pixels(), at_once.pixels()));
+                EXPECT_EQ(bands.stripes(), 3) << "of 290 rows";
             }
         }
     }

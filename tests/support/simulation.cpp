@@ -296,10 +296,10 @@ void Simulation::finish(head::Finish& job) {
     frame.set_revision(job.view->revision);
     frame.set_sketch(job.sketch);
     node::put(job.merge.account.missing, *frame.mutable_missing());
-    const auto picture = pictures_.take(number);
-    perform(head_.handle(
-        head::Finished{number, wire::frame_message(std::move(frame), picture.image, false, workers_)},
-        fabric_.now()));
+    auto picture = pictures_.take(number);
+    perform(head_.handle(head::Finished{number, wire::frame_message(std::move(frame), job.view->size,
+                                                                    std::move(picture.coded), false)},
+                         fabric_.now()));
 }
 
 void Simulation::on_client_event(const wire::NetEvent& event) {
