@@ -25,7 +25,8 @@ Seconds median(const std::vector<Seconds>& all) {
             .composite = of(&Seconds::composite),
             .warp = of(&Seconds::warp),
             .encode = of(&Seconds::encode),
-            .total = of(&Seconds::total)};
+            .total = of(&Seconds::total),
+            .interval = of(&Seconds::interval)};
 }
 
 std::string to_json(const Picture& picture) {

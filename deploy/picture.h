@@ -18,7 +18,8 @@ struct Seconds {
     double composite = 0;   // coding windows and merging them, on the slowest path
     double warp = 0;
     double encode = 0;
-    double total = 0;  // from the request to the decoded picture
+    double total = 0;     // from the request to the decoded picture
+    double interval = 0;  // from the decoded picture before, or, for the first, from the request
 };
 
 struct ProcessMemory {

@@ -1,5 +1,7 @@
 #include "deploy/still.h"
 
+#include <algorithm>
+
 #include "protocol/wire/picture.h"
 #include "protocol/wire/words.h"
 
@@ -61,6 +63,8 @@ std::vector<wire::NetEffect> Still::handle(const wire::NetEvent& event, wire::Ti
         } else if (std::holds_alternative<pb::Frame>(body)) {
             on_frame(received->message, now, effects);
         }
+    } else if (std::holds_alternative<wire::Tick>(event) && !times_.empty()) {
+        ask_ahead(now, effects);
     }
     return effects;
 }
@@ -92,9 +96,16 @@ void Still::ask(wire::Time now, std::vector<wire::NetEffect>& effects) {
     }
     view_.camera = *camera;
     options_.orbit.azimuth += repeat_.turn;
-    ++view_.revision;
-    asked_ = now;
+    asked_.push_back({++view_.revision, now});
     effects.emplace_back(wire::Send{server_link, wire::message(wire::to_wire(view_))});
+}
+
+// One at a time, for of two that wait to be sent the newer takes the other's place.
+void Still::ask_ahead(wire::Time now, std::vector<wire::NetEffect>& effects) {
+    const auto in_flight = static_cast<int>(asked_.size());
+    if (in_flight < repeat_.in_flight && static_cast<int>(times_.size()) + in_flight < repeat_.times) {
+        ask(now, effects);
+    }
 }
 
 void Still::on_frame(const wire::Message& message, wire::Time now, std::vector<wire::NetEffect>& effects) {
@@ -102,14 +113,16 @@ void Still::on_frame(const wire::Message& message, wire::Time now, std::vector<w
     pb::FrameShown shown;
     shown.set_number(frame.number());
     effects.emplace_back(wire::Send{server_link, wire::message(shown)});
-    if (frame.missing_size() > 0 || frame.revision() != view_.revision) {
-        return;  // the server sends it again when it is whole
+    const auto asked = std::ranges::find(asked_, frame.revision(), &Asked::revision);
+    if (frame.missing_size() > 0 || asked == asked_.end()) {
+        return;  // the server sends it again when it is whole, if it is the newest
     }
     auto decoded = wire::picture_from(message, view_.size);
     if (!decoded) {
         fail(base::Code::corrupt, decoded.error().text);
         return;
     }
+    const wire::Time seen = std::chrono::steady_clock::now();
     const pb::LeafStats& leaves = frame.stats().leaves();
     if (times_.empty()) {
         load_seconds_ = seconds(started_, now) - frame.stats().warp_seconds() - leaves.render_seconds();
@@ -122,7 +135,10 @@ void Still::on_frame(const wire::Message& message, wire::Time now, std::vector<w
                       .composite = leaves.composite_seconds(),
                       .warp = frame.stats().warp_seconds(),
                       .encode = frame.stats().encode_seconds(),
-                      .total = seconds(asked_, std::chrono::steady_clock::now())});
+                      .total = seconds(asked->at, seen),
+                      .interval = seconds(times_.empty() ? asked->at : seen_, seen)});
+    asked_.erase(asked_.begin(), asked + 1);
+    seen_ = seen;
     picture_.samples = leaves.samples();
     picture_.bricks_total = leaves.bricks_total();
     picture_.bricks_empty = leaves.bricks_empty();
@@ -130,11 +146,8 @@ void Still::on_frame(const wire::Message& message, wire::Time now, std::vector<w
     picture_.bricks_rendered = leaves.bricks_rendered();
     picture_.window_bytes = leaves.window_bytes();
     picture_.frame_bytes = message.payload_size();
-    if (static_cast<int>(times_.size()) < repeat_.times) {
-        ask(now, effects);
-    } else {
-        finished_ = true;
-    }
+    finished_ = static_cast<int>(times_.size()) >= repeat_.times;
+    ask_ahead(seen, effects);
 }
 
 double Still::progress() const {

@@ -2,6 +2,7 @@
 // A client without a window: asks a server for one view, some times over, and keeps the last picture.
 // Between times the camera may turn. A pure state machine, like all that speak on links.
 
+#include <deque>
 #include <functional>
 #include <optional>
 #include <string>
@@ -17,6 +18,9 @@ namespace shearwater::deploy {
 struct Repeat {
     int times = 1;
     double turn = 0;  // degrees of azimuth from one picture to the next
+    // Views asked for and not yet seen, once the first picture has come: while a window is turned the server
+    // has the next before the last is there.
+    int in_flight = 1;
 };
 
 class Still {
@@ -38,6 +42,7 @@ class Still {
     void on_state(const wire::pb::TreeState& state);
     void on_frame(const wire::Message& message, wire::Time now, std::vector<wire::NetEffect>& effects);
     void ask(wire::Time now, std::vector<wire::NetEffect>& effects);
+    void ask_ahead(wire::Time now, std::vector<wire::NetEffect>& effects);
     void fail(base::Code code, std::string detail);
 
     wire::Address server_;
@@ -48,7 +53,12 @@ class Still {
     std::vector<Seconds> times_;
     Picture picture_;
     wire::Time started_{};
-    wire::Time asked_{};
+    struct Asked {
+        std::uint64_t revision;
+        wire::Time at;
+    };
+    std::deque<Asked> asked_;  // and not seen
+    wire::Time seen_{};        // when the last one was
     double progress_ = 0;
     double load_seconds_ = 0;
     bool finished_ = false;

@@ -1,7 +1,6 @@
 #include "common/base/workers.h"
 
-#include <pthread.h>
-#include <sched.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <atomic>
@@ -25,10 +24,10 @@ struct Workers::Loop {
     }
 };
 
-void run_when_idle() {
-    const sched_param none{};
-    // Only advice: where it is not taken, the thread competes.
-    static_cast<void>(pthread_setschedparam(pthread_self(), SCHED_IDLE, &none));
+void run_in_background() {
+    constexpr int tenth = 10;
+    // Of this thread, 0. Only advice: where it is not taken, the thread competes.
+    static_cast<void>(setpriority(PRIO_PROCESS, 0, tenth));
 }
 
 Workers::Workers(int threads, Priority priority) {
@@ -37,8 +36,8 @@ Workers::Workers(int threads, Priority priority) {
     }
     for (int i = 1; i < threads; ++i) {
         threads_.emplace_back([this, priority] {
-            if (priority == Priority::idle) {
-                run_when_idle();
+            if (priority == Priority::background) {
+                run_in_background();
             }
             work();
         });
@@ -57,6 +56,10 @@ bool Workers::for_each(std::int64_t count, const std::function<void(std::int64_t
                        const std::stop_token& stop) {
     const std::lock_guard one(one_loop_);
     Loop loop{.count = count, .body = body, .stop = stop};
+    if (count <= 1) {  // not worth waking anyone
+        loop.run();
+        return loop.next.load() >= count;
+    }
     {
         const std::lock_guard lock(mutex_);
         loop_ = &loop;

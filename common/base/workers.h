@@ -11,13 +11,13 @@
 
 namespace shearwater::base {
 
-// Lets the calling thread run only where no other wants the processor.
-void run_when_idle();
+// Lets the calling thread go on beside others that want the processor, at a tenth of their pace.
+void run_in_background();
 
 class Workers {
   public:
-    // Idle: the threads, but not the caller's own, run where nobody else wants the processor.
-    enum class Priority { normal, idle };
+    // Background: so run the threads, but the caller's own.
+    enum class Priority { normal, background };
 
     // `threads` counts the caller's own: Workers(1) starts none. 0 means one per processor.
     explicit Workers(int threads = 0, Priority priority = Priority::normal);

@@ -1,8 +1,6 @@
 #include "common/image/layer.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 
 namespace shearwater::image {
@@ -20,66 +18,46 @@ Range bounding(const Range& a, const Range& b) {
     return {std::min(a.first, b.first), std::max(a.end, b.end)};
 }
 
-bool is_lit(std::span<const RgbaF> pixels) {
-    std::uint64_t bits = 0;
-    for (const RgbaF& pixel : pixels) {
-        const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(pixel);
-        bits |= halves[0] | halves[1];
-    }
-    return bits != 0;
-}
-
-// From the first pixel that is not transparent to the last. Most of those that are go a block at a time.
-Range lit_of(std::span<const RgbaF> row) {
-    std::size_t begin = 0, end = row.size();
-    for (const std::size_t block : {std::size_t{16}, std::size_t{1}}) {
-        while (begin + block <= end && !is_lit(row.subspan(begin, block))) {
-            begin += block;
-        }
-    }
-    for (const std::size_t block : {std::size_t{16}, std::size_t{1}}) {
-        while (begin + block <= end && !is_lit(row.subspan(end - block, block))) {
-            end -= block;
-        }
-    }
-    return {static_cast<int>(begin), static_cast<int>(end)};
-}
-
 }  // namespace
 
-Layer::Layer(const view::Factorisation& factorisation, const Window& window, base::Workers& workers)
+Layer::Layer(const view::Factorisation& factorisation, const Window& window)
     : window_(&window),
       face_(&factorisation.faces[static_cast<std::size_t>(window.face)]),
-      silhouette_(factorisation, *face_) {
-    const std::vector<Range> lit = lit_pixels(workers);
-    rows_.resize(static_cast<std::size_t>(face_->height) + 3);
-    for (int j = -1; j < face_->height; ++j) {
+      silhouette_(factorisation, *face_),
+      lit_blocks_(std::max(window.rect.width(), 0), std::max(window.rect.height(), 0)),
+      lit_pixels_(static_cast<std::size_t>(std::max(window.rect.height(), 0))),
+      rows_(static_cast<std::size_t>(face_->height) + 3) {}
+
+void Layer::take(const Rect& part, base::Workers& workers) {
+    constexpr int rows_at_a_time = 16;
+    const Rect& rect = window_->rect;
+    const Rect filled = view::intersection(part, rect);
+    if (filled.empty()) {
+        return;
+    }
+    workers.for_each((filled.height() + rows_at_a_time - 1) / rows_at_a_time, [&](std::int64_t n) {
+        const int begin = filled.y0 + static_cast<int>(n) * rows_at_a_time;
+        for (int j = begin; j < std::min(begin + rows_at_a_time, filled.y1); ++j) {
+            const auto row = window_->pixels.row(j - rect.y0)
+                                 .subspan(static_cast<std::size_t>(filled.x0 - rect.x0),
+                                          static_cast<std::size_t>(filled.width()));
+            const Range range = lit_blocks_.note(filled.x0 - rect.x0, j - rect.y0, row);
+            Range& lit = lit_pixels_[static_cast<std::size_t>(j - rect.y0)];
+            lit = bounding(lit, {range.first + rect.x0, range.end + rect.x0});
+        }
+    });
+    for (int j = std::max(filled.y0 - 2, -1); j < std::min(filled.y1 + 1, face_->height); ++j) {
         CellRow& row = rows_[static_cast<std::size_t>(j + rows_above)];
-        row = row_of_cells(j, lit);
+        row = row_of_cells(j);
         lit_ = view::bounding(lit_, {row.lit.first, j, row.lit.end, j + 1});
     }
 }
 
-// Of each of the window's rows, in the face's pixels.
-std::vector<Range> Layer::lit_pixels(base::Workers& workers) const {
-    constexpr int rows_at_a_time = 16;
-    const int height = window_->rect.height();
-    std::vector<Range> lit(static_cast<std::size_t>(std::max(height, 0)));
-    workers.for_each((height + rows_at_a_time - 1) / rows_at_a_time, [&](std::int64_t part) {
-        const int begin = static_cast<int>(part) * rows_at_a_time;
-        for (int y = begin; y < std::min(begin + rows_at_a_time, height); ++y) {
-            const Range range = lit_of(window_->pixels.row(y));
-            lit[static_cast<std::size_t>(y)] = {range.first + window_->rect.x0, range.end + window_->rect.x0};
-        }
-    });
-    return lit;
-}
-
-CellRow Layer::row_of_cells(int j, const std::vector<Range>& lit_pixels) const {
+CellRow Layer::row_of_cells(int j) const {
     const Rect& rect = window_->rect;
     Range lit;
     for (int y = std::max(j - 1, rect.y0); y < std::min(j + 3, rect.y1); ++y) {
-        lit = bounding(lit, lit_pixels[static_cast<std::size_t>(y - rect.y0)]);
+        lit = bounding(lit, lit_pixels_[static_cast<std::size_t>(y - rect.y0)]);
     }
     if (lit.empty()) {
         return {};

@@ -8,21 +8,16 @@
 //   j+1  .   +---+   .
 //   j+2  .   .   .   .
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
 #include "common/base/workers.h"
 #include "common/image/image.h"
+#include "common/image/lit_blocks.h"
 #include "common/image/silhouette.h"
 
 namespace shearwater::image {
-
-// Half-open range of pixels or cells of a row.
-struct Range {
-    int first = 0, end = 0;
-    bool empty() const { return end <= first; }
-    bool contains(int i) const { return first <= i && i < end; }
-};
 
 // What a row of cells needs: nothing outside `lit`, where all 16 pixels are transparent; in `whole`, a part
 // of it, plain interpolation, as the window has all 16 and the cube's outline holds them.
@@ -32,7 +27,17 @@ struct CellRow {
 
 class Layer {
   public:
-    Layer(const view::Factorisation& factorisation, const Window& window, base::Workers& workers);
+    // Of a window that is yet to be filled: so far nothing of it is lit.
+    Layer(const view::Factorisation& factorisation, const Window& window);
+    Layer(const view::Factorisation& factorisation, const Window& window, base::Workers& workers)
+        : Layer(factorisation, window) {
+        take(window.rect, workers);
+    }
+
+    // A part of the window, in the face's pixels, has been filled, and stays as it is. From then on a cell is
+    // as it will be when all of the window is, if its 16 pixels, as far as the window has them, are in such
+    // parts.
+    void take(const Rect& part, base::Workers& workers);
 
     const view::Face& face() const { return *face_; }
     const Window& window() const { return *window_; }
@@ -43,15 +48,22 @@ class Layer {
     const CellRow& cell_row(int j) const { return rows_[static_cast<std::size_t>(j + rows_above)]; }
     // Holds all lit cells.
     const Rect& lit() const { return lit_; }
+    // False only if the cells from one corner to another, inclusive, have nothing.
+    bool any_lit(int i0, int j0, int i1, int j1) const {
+        const Rect& rect = window_->rect;
+        return lit_blocks_.any({std::min(i0, i1) - 1 - rect.x0, std::min(j0, j1) - 1 - rect.y0,
+                                std::max(i0, i1) + 3 - rect.x0, std::max(j0, j1) + 3 - rect.y0});
+    }
     static constexpr int rows_above = 2;
 
   private:
-    std::vector<Range> lit_pixels(base::Workers& workers) const;
-    CellRow row_of_cells(int j, const std::vector<Range>& lit_pixels) const;
+    CellRow row_of_cells(int j) const;
 
     const Window* window_;
     const view::Face* face_;
     Silhouette silhouette_;
+    LitBlocks lit_blocks_;
+    std::vector<Range> lit_pixels_;  // of each of the window's rows, in the face's pixels
     std::vector<CellRow> rows_;
     Rect lit_;
 };

@@ -75,19 +75,6 @@ HWY_INLINE void place(const Track& track, double first, const view::Face& face, 
     }
 }
 
-HWY_INLINE bool any_in(const Rect& rect, const Batch& b) {
-    const Cells d;
-    // Of each cell the distance to the nearest border, negative beyond it; of them all the greatest.
-    auto depth = hn::Set(d, -1);
-    for (std::size_t n = 0; n < batch; n += hn::Lanes(d)) {
-        const auto i = hn::Load(d, b.i + n), j = hn::Load(d, b.j + n);
-        const auto column = hn::Min(hn::Sub(i, hn::Set(d, rect.x0)), hn::Sub(hn::Set(d, rect.x1 - 1), i));
-        const auto row = hn::Min(hn::Sub(j, hn::Set(d, rect.y0)), hn::Sub(hn::Set(d, rect.y1 - 1), j));
-        depth = hn::Max(depth, hn::Min(column, row));
-    }
-    return !hn::AllTrue(d, hn::Lt(depth, hn::Zero(d)));
-}
-
 // Catmull-Rom's weights, as cubic_weights of resample.cpp has them, four in a row for each pixel.
 HWY_INLINE void weigh(const float* HWY_RESTRICT t, float* HWY_RESTRICT weights) {
     const Floats d;
@@ -172,13 +159,14 @@ std::size_t resample_span(const Layer& layer, const Track& track, int x0, std::s
     Batch b;
     for (std::size_t begin = 0; begin < out.size(); begin += batch) {
         place(track, x0 + static_cast<double>(begin) + 0.5, layer.face(), b);
-        if (!any_in(layer.lit(), b)) {
+        const std::size_t count = std::min(batch, out.size() - begin);
+        // Along the track, i and j only rise or only fall.
+        if (!layer.any_lit(b.i[0], b.j[0], b.i[count - 1], b.j[count - 1])) {
             continue;
         }
         locate(layer.window(), b);
         weigh(b.tx, b.weight_x);
         weigh(b.ty, b.weight_y);
-        const std::size_t count = std::min(batch, out.size() - begin);
         for (std::size_t n = 0; n < count; ++n) {
             const std::size_t later = std::min(n + ahead, batch - 1);
             hwy::Prefetch(pixels + b.first[later]);

@@ -98,8 +98,7 @@ FrameTimes InProcess::draw(const view::Camera& camera, const view::ImageSize& si
     times.render = clock.lap();
     const auto picture = image::warp(factorisation, windows, camera, size, tf.background, *workers_);
     times.warp = clock.lap();
-    std::vector<std::byte> coded(image::rle_bound(picture.pixels().size()));
-    coded.resize(image::encode_rle(picture.pixels(), coded, *workers_));
+    const base::Buffer coded = image::encode_rle(picture.pixels(), *workers_);
     times.encode = clock.lap();
     times.samples = stats.samples;
     times.level = factorisation.level();

@@ -36,16 +36,19 @@ base::Result<OnTree> OnTree::start(const options::CubeOptions& cube, int branchi
 
 base::Result<deploy::Picture> OnTree::draw_path(deploy::ViewOptions view, int frames,
                                                 const view::TransferFunction& tf,
-                                                const volume::Progress& progress) {
+                                                const volume::Progress& progress, int in_flight) {
     const auto size = view.image_size();
     if (!size) {
         return size.error();
     }
-    view.orbit.azimuth -= Path::turn;
-    auto picture = deploy::draw_over_links("shearwater bench", target_, view, tf, *size,
-                                           {.times = frames + 1, .turn = Path::turn}, progress);
+    constexpr int until_all_fly = 4;
+    const int before = in_flight > 1 ? until_all_fly : 1;
+    view.orbit.azimuth -= before * Path::turn;
+    auto picture = deploy::draw_over_links(
+        "shearwater bench", target_, view, tf, *size,
+        {.times = before + frames, .turn = Path::turn, .in_flight = in_flight}, progress);
     if (picture) {
-        picture->each.erase(picture->each.begin());
+        picture->each.erase(picture->each.begin(), picture->each.begin() + before);
         picture->seconds = deploy::median(picture->each);
     }
     return picture;

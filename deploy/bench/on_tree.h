@@ -14,11 +14,11 @@ class OnTree {
     static base::Result<OnTree> start(const options::CubeOptions& cube, int branching, int levels,
                                       int threads);
 
-    // One picture unmeasured, then `frames` along the path that `view` begins: `each` of them, and their
-    // medians. The first time, the tree loads before.
+    // A few pictures unmeasured, one if each is asked for when the last has come, then `frames` along the
+    // path that `view` begins: `each` of them, and their medians. The first time, the tree loads before.
     base::Result<deploy::Picture> draw_path(deploy::ViewOptions view, int frames,
                                             const view::TransferFunction& tf,
-                                            const volume::Progress& progress);
+                                            const volume::Progress& progress, int in_flight = 1);
 
     int renderers() const { return renderers_; }
     int nodes() const { return nodes_; }  // the server among them

@@ -27,6 +27,13 @@ void Options::add_frames(CLI::App& app) {
         ->capture_default_str();
 }
 
+void Options::add_in_flight(CLI::App& app) {
+    app.add_option("--in-flight", in_flight,
+                   "pictures asked for and not yet seen; 2: as a window that is turned has them")
+        ->check(CLI::Range(1, 2))
+        ->capture_default_str();
+}
+
 void Options::add_image(CLI::App& app) {
     app.add_option("--image", image, "size of the picture, WIDTHxHEIGHT pixels")->capture_default_str();
 }

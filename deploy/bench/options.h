@@ -13,6 +13,7 @@ namespace shearwater::bench {
 struct Options {
     int frames = 10;
     int threads = 0;
+    int in_flight = 1;
     std::string image = "512x512";
     std::string quality = "normal";
     std::string classify = "post";
@@ -22,6 +23,7 @@ struct Options {
     void add_json(CLI::App& app);
     void add_threads(CLI::App& app);
     void add_frames(CLI::App& app);
+    void add_in_flight(CLI::App& app);
     void add_image(CLI::App& app);
     void add_quality(CLI::App& app);
     void add_classify(CLI::App& app);

@@ -25,6 +25,7 @@ struct Flags {
 // What a row says of the frames, by whatever they were drawn.
 struct Drawn {
     Spread total;
+    double pace = 0;  // seconds from picture to picture, where several are under way
     double render = 0, composite = 0, warp = 0, encode = 0;
     int renderers = 1;
 };
@@ -47,8 +48,12 @@ base::Result<Drawn> draw_here(const Flags& flags, std::int64_t edge) {
         return frames.error();
     }
     const FrameSummary all = summary(*frames);
-    return Drawn{
-        .total = all.total, .render = all.render, .composite = 0, .warp = all.warp, .encode = all.encode};
+    return Drawn{.total = all.total,
+                 .pace = all.total.median,
+                 .render = all.render,
+                 .composite = 0,
+                 .warp = all.warp,
+                 .encode = all.encode};
 }
 
 base::Result<Drawn> draw_by_tree(const Flags& flags, std::int64_t edge, int nodes) {
@@ -59,17 +64,22 @@ base::Result<Drawn> draw_by_tree(const Flags& flags, std::int64_t edge, int node
         return tree.error();
     }
     deploy::ProgressBar bar(title(flags, edge, nodes));
-    const auto picture = tree->draw_path(*flags.common.view(edge), flags.common.frames, work.tf,
-                                         [&](double share) { bar.show(share); });
+    const auto picture = tree->draw_path(
+        *flags.common.view(edge), flags.common.frames, work.tf, [&](double share) { bar.show(share); },
+        flags.common.in_flight);
     if (!picture) {
         return picture.error();
     }
     std::vector<double> totals;
+    double all = 0;
     for (const deploy::Seconds& seconds : picture->each) {
         totals.push_back(seconds.total);
+        all += seconds.interval;
     }
+    const Spread total = spread(std::move(totals));
     const deploy::Seconds& seconds = picture->seconds;
-    return Drawn{.total = spread(std::move(totals)),
+    return Drawn{.total = total,
+                 .pace = flags.common.in_flight > 1 ? all / flags.common.frames : total.median,
                  .render = seconds.render,
                  .composite = seconds.composite,
                  .warp = seconds.warp,
@@ -96,7 +106,8 @@ Record row(const Flags& flags, std::int64_t edge, int nodes, const Drawn& drawn,
         .number("median_s", seconds, 4)
         .number("min_s", drawn.total.least, 4)
         .number("max_s", drawn.total.most, 4)
-        .number("frames_per_s", 1 / seconds, 2)
+        .aside("in_flight", nodes == 1 ? 1 : flags.common.in_flight)
+        .number("frames_per_s", 1 / drawn.pace, 2)
         .number("efficiency", efficiency, 2)
         .number("paper_s", paper, 2)
         .number("paper_frames_per_s", paper ? std::optional(1 / *paper) : std::nullopt, 2)
@@ -155,6 +166,7 @@ Run add_trees(CLI::App& app) {
         ->capture_default_str();
     add_workload(app, flags->workload);
     flags->common.add_frames(app);
+    flags->common.add_in_flight(app);
     flags->common.add_image(app);
     flags->common.add_quality(app);
     flags->common.add_classify(app);

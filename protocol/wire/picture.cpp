@@ -19,13 +19,10 @@ Parsed<std::vector<std::byte>> inflated(std::span<const std::byte> bytes, std::s
 
 }  // namespace
 
-Message frame_message(pb::Frame frame, const image::Image<image::Rgba8>& picture, bool deflate,
-                      base::Workers& workers) {
-    frame.set_width(static_cast<std::uint32_t>(picture.width()));
-    frame.set_height(static_cast<std::uint32_t>(picture.height()));
+Message frame_message(pb::Frame frame, const view::ImageSize& size, base::Buffer coded, bool deflate) {
+    frame.set_width(static_cast<std::uint32_t>(size.width));
+    frame.set_height(static_cast<std::uint32_t>(size.height));
     frame.set_encoding(pb::ENCODING_RLE);
-    base::Buffer coded(image::rle_bound(picture.pixels().size()));
-    coded.resize(image::encode_rle(picture.pixels(), coded, workers));
     if (deflate) {
         const std::vector<std::byte> smaller = image::deflate(coded);
         if (smaller.size() < coded.size()) {

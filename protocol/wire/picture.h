@@ -1,7 +1,7 @@
 #pragma once
 // Finished pictures and the frames they travel to a client in.
 
-#include "common/base/workers.h"
+#include "common/base/buffer.h"
 #include "common/image/image.h"
 #include "common/view/camera.h"
 #include "protocol/wire/header.h"
@@ -9,10 +9,9 @@
 
 namespace shearwater::wire {
 
-// Puts the picture behind a frame, whose size and encoding it fills in: run lengths, and deflate where
-// that was asked for and pays.
-Message frame_message(pb::Frame frame, const image::Image<image::Rgba8>& picture, bool deflate,
-                      base::Workers& workers);
+// Puts a picture of so many pixels, coded in run lengths, behind a frame, whose size and encoding it fills
+// in: deflated where that is asked for and pays.
+Message frame_message(pb::Frame frame, const view::ImageSize& size, base::Buffer coded, bool deflate);
 
 // The picture of a Frame, which must be of the size that was asked for: memory goes by that size, not
 // by the sender's word.

@@ -19,8 +19,8 @@ Jobs::Jobs(int threads, std::function<void(leaf::JobEvent)> tell)
     : tell_(std::move(tell)),
       loaders_(threads),
       drawers_(threads),
-      finders_(threads, base::Workers::Priority::idle) {
-    boost::asio::post(finding_, [] { base::run_when_idle(); });
+      finders_(threads, base::Workers::Priority::background) {
+    boost::asio::post(finding_, [] { base::run_in_background(); });
 }
 
 Jobs::~Jobs() {

@@ -60,7 +60,7 @@ struct Draw {
     std::optional<volume::Mapping> sketch;          // draw the sketch, by these limits
     std::optional<culling::VisibleBlocks> visible;  // else all are
 };
-// Goes on beside all others, where nobody else wants the processor. First coarse functions are told, then
+// Goes on beside all others, in the background. First coarse functions are told, then
 // all.
 struct Find {
     Job job;

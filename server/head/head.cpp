@@ -305,7 +305,7 @@ void Head::give_up_frames(Session& session, const Which& which, Effects& effects
 void Head::give_up_refinements(wire::LinkId client, Session& session, Effects& effects) {
     const auto is_finer = [&](const FrameInWork& frame) {
         return frame.client == client &&
-               static_cast<int>(frame.view.quality) > static_cast<int>(session.wanted->quality);
+               static_cast<int>(frame.view->quality) > static_cast<int>(session.wanted->quality);
     };
     give_up_frames(session, is_finer, effects);
 }
@@ -363,10 +363,10 @@ void Head::begin_frames(wire::LinkId client, Session& session, wire::Time now, E
         render.set_frame(++last_frame_);
         *render.mutable_factorisation() = wire::to_wire(factorisation);
         *render.mutable_transfer_function() = wire::to_wire(view.tf);
-        frames_.emplace(
-            last_frame_,
-            FrameInWork{
-                .client = client, .view = view, .asked = session.asked, .sketch = sketch.has_value()});
+        frames_.emplace(last_frame_, FrameInWork{.client = client,
+                                                 .view = std::make_shared<const wire::View>(view),
+                                                 .asked = session.asked,
+                                                 .sketch = sketch.has_value()});
         session.in_flight.push_back(last_frame_);
         if (!sketch && can_cull(client, view, factorisation.level())) {
             FrameInWork& frame = frames_.at(last_frame_);
@@ -432,7 +432,7 @@ void Head::collect(wire::Time now, Effects& effects) {
             frame.merged = true;
             effects.jobs.emplace_back(Finish{std::move(job), frame.view, frame.asked, frame.sketch});
         } else {
-            effects.jobs.emplace_back(Lay{std::move(job)});
+            effects.jobs.emplace_back(Lay{std::move(job), frame.view});
         }
     }
 }

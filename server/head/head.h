@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,14 +32,15 @@ struct Limits {
 
 // ---- jobs carried out away from the network's thread ----
 
-// Of a frame: all merges but the last, one by one; then
+// Of a frame: all merges but the last, one by one, with as much of the warp as each allows; then
 struct Lay {
     node::MergeJob merge;
+    std::shared_ptr<const wire::View> view;
 };
-// the last, the warp and the coding;
+// the last, the rest of the warp, and the coding;
 struct Finish {
     node::MergeJob merge;
-    wire::View view;
+    std::shared_ptr<const wire::View> view;
     wire::Time asked;     // when the view arrived
     bool sketch = false;  // it is a picture of the sketch
 };
@@ -115,11 +117,11 @@ class Head {
     };
     struct FrameInWork {
         wire::LinkId client;
-        wire::View view;
+        std::shared_ptr<const wire::View> view;
         wire::Time asked;
         bool sketch = false;  // it is drawn from the sketch
         bool begun = false;   // some of it is laid
-        bool merged = false;  // it is being finished: only the warp is to come
+        bool merged = false;  // it is being finished: the last of the warp is to come
         // What is asked for once it is known what is visible.
         std::optional<wire::pb::Render> render = {};
         view::Factorisation factorisation = {};

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "common/base/stopwatch.h"
-#include "common/image/warp.h"
 #include "protocol/wire/convert.h"
 #include "protocol/wire/picture.h"
 
@@ -16,7 +15,7 @@ namespace pb = wire::pb;
 Service::Service(int threads, std::unique_ptr<volume::VoxelSource> cube,
                  std::function<void(head::JobEvent)> tell)
     : cube_(std::move(cube)), tell_(std::move(tell)), workers_(threads), lookers_(threads) {
-    boost::asio::post(learning_, [] { base::run_when_idle(); });
+    boost::asio::post(learning_, [] { base::run_in_background(); });
 }
 
 Service::~Service() {
@@ -30,11 +29,13 @@ Service::~Service() {
 
 void Service::perform(head::Job job) {
     if (auto* band = std::get_if<head::Lay>(&job)) {
-        boost::asio::post(frames_, [this, work = std::move(*band)]() mutable { canvases_.lay(work.merge); });
+        boost::asio::post(frames_, [this, work = std::move(*band)]() mutable {
+            pictures_.lay(work.merge, *work.view, workers_);
+        });
     } else if (auto* frame = std::get_if<head::Finish>(&job)) {
         boost::asio::post(frames_, [this, work = std::move(*frame)]() mutable { finish(work); });
     } else if (auto* given_up = std::get_if<head::GiveUp>(&job)) {
-        boost::asio::post(frames_, [this, number = given_up->frame] { canvases_.done_with(number); });
+        boost::asio::post(frames_, [this, number = given_up->frame] { pictures_.give_up(number); });
     } else if (auto* look = std::get_if<head::Look>(&job)) {
         boost::asio::post(looking_,
                           [this, work = std::move(*look)] { tell_(lookout_.look(work, lookers_)); });
@@ -48,25 +49,22 @@ void Service::perform(head::Job job) {
 }
 
 void Service::finish(head::Finish& job) {
-    const image::Canvas& canvas = canvases_.lay(job.merge);
-    const node::MergedFrame& merged = *job.merge.frame;
+    pictures_.lay(job.merge, *job.view, workers_);
+    auto picture = pictures_.take(job.merge.frame->number);
     pb::Frame frame;
-    frame.set_number(merged.number);
-    frame.set_revision(job.view.revision);
+    frame.set_number(job.merge.frame->number);
+    frame.set_revision(job.view->revision);
     frame.set_sketch(job.sketch);
     node::put(job.merge.account.missing, *frame.mutable_missing());
-    const wire::Time warp_begin = std::chrono::steady_clock::now();
-    const auto picture = image::warp(merged.factorisation, canvas.windows(), job.view.camera, job.view.size,
-                                     job.view.tf.background, workers_);
     const wire::Time encode_begin = std::chrono::steady_clock::now();
-    canvases_.done_with(merged.number);
-    wire::Message message = wire::frame_message(std::move(frame), picture, job.view.deflate, workers_);
+    wire::Message message =
+        wire::frame_message(std::move(frame), job.view->size, std::move(picture.coded), job.view->deflate);
     pb::FrameStats* const stats = std::get<pb::Frame>(message.body).mutable_stats();
     *stats->mutable_leaves() = job.merge.account.stats;
-    stats->set_warp_seconds(std::chrono::duration<double>(encode_begin - warp_begin).count());
-    stats->set_encode_seconds(base::seconds_since(encode_begin));
+    stats->set_warp_seconds(picture.warp_seconds);
+    stats->set_encode_seconds(picture.encode_seconds + base::seconds_since(encode_begin));
     stats->set_total_seconds(base::seconds_since(job.asked));
-    tell_(head::Finished{merged.number, std::move(message)});
+    tell_(head::Finished{job.merge.frame->number, std::move(message)});
 }
 
 void Service::read_voxels(const head::ReadVoxels& job) {

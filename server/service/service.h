@@ -9,9 +9,9 @@
 
 #include "common/base/workers.h"
 #include "common/volume/source.h"
-#include "server/head/canvases.h"
 #include "server/head/head.h"
 #include "server/head/lookout.h"
+#include "server/head/pictures.h"
 
 namespace shearwater::service {
 
@@ -32,11 +32,11 @@ class Service {
     std::unique_ptr<volume::VoxelSource> cube_;  // touched by the reading thread only
     std::function<void(head::JobEvent)> tell_;
     base::Workers workers_, lookers_;
-    head::Canvases canvases_;  // touched by the frames' thread only
+    head::Pictures pictures_;  // touched by the frames' thread only
     head::Lookout lookout_;    // touched by the learning and the looking thread
     boost::asio::thread_pool frames_{1};
     boost::asio::thread_pool looking_{1};
-    boost::asio::thread_pool learning_{1};  // where nobody else wants the processor
+    boost::asio::thread_pool learning_{1};  // in the background
     boost::asio::thread_pool reading_{1};
 };
 

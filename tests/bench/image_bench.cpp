@@ -143,9 +143,10 @@ void each_warp(benchmark::internal::Benchmark* program) {
     program->Args({512, 0, 1, 90})->Args({1024, 0, 1, 90});
 }
 
-enum Content { runs, noise, galaxy };
+enum Content { runs, noise, galaxy, grain };
 
-// A picture of long runs, of noise, or of both: a disc of noise in an even sky.
+// A picture of long runs, of noise, or of both: a disc of noise in an even sky. Or of noise so faint that
+// every fifth pixel is like the one before.
 std::vector<Rgba8> picture(Content content) {
     std::mt19937 random(2);
     std::vector<Rgba8> pixels(megapixel, Rgba8{26, 26, 51, 255});
@@ -155,6 +156,8 @@ std::vector<Rgba8> picture(Content content) {
             pixels[i] = {static_cast<std::uint8_t>(random()), static_cast<std::uint8_t>(random()), 9, 255};
         } else if (content == runs) {
             pixels[i].g = static_cast<std::uint8_t>(i / 400);
+        } else if (content == grain) {
+            pixels[i].g = static_cast<std::uint8_t>(random() % 5);
         }
     }
     return pixels;
@@ -194,9 +197,11 @@ BENCHMARK(merge_windows)->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(rle_encode, runs, runs)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(rle_encode, noise, noise)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(rle_encode, galaxy, galaxy)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(rle_encode, grain, grain)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(rle_decode, runs, runs)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(rle_decode, noise, noise)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(rle_decode, galaxy, galaxy)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(rle_decode, grain, grain)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace shearwater::image

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/image/rle.h"
 #include "protocol/wire/picture.h"
 
 namespace shearwater::deploy {
@@ -24,43 +25,84 @@ std::optional<wire::View> asked(const std::vector<wire::NetEffect>& effects) {
     return std::nullopt;
 }
 
-TEST(Still, TurnsFromPictureToPicture) {
-    const view::Lattice lattice{.n = {20, 20, 20}};
-    const view::ImageSize size{.width = 8, .height = 6};
+const view::Lattice lattice{.n = {20, 20, 20}};
+const view::ImageSize size{.width = 8, .height = 6};
+
+ViewOptions options_from(double azimuth) {
     ViewOptions options;
-    options.orbit.azimuth = 10;
+    options.orbit.azimuth = azimuth;
     options.size = "8x6";
-    constexpr int times = 3;
-    Still still({.host = "127.0.0.1", .port = 1}, options, view::default_transfer_function(), size,
-                {.times = times, .turn = 25});
-    wire::Time now{};
-    still.start(now);
+    return options;
+}
+
+Still still_of(const Repeat& repeat) {
+    return {
+        {.host = "127.0.0.1", .port = 1}, options_from(10), view::default_transfer_function(), size, repeat};
+}
+
+wire::NetEvent description() {
     pb::CubeDescription cube;
     *cube.mutable_lattice() = wire::to_wire(lattice);
-    wire::NetEvent event = wire::Received{.link = wire::LinkId{1}, .message = wire::message(cube)};
+    return wire::Received{.link = wire::LinkId{1}, .message = wire::message(cube)};
+}
+
+wire::NetEvent frame_of(std::uint64_t revision) {
+    base::Workers workers(1);
+    pb::Frame frame;
+    frame.set_number(revision);
+    frame.set_revision(revision);
+    const image::Image<image::Rgba8> picture(size.width, size.height);
+    return wire::Received{
+        .link = wire::LinkId{1},
+        .message = wire::frame_message(frame, size, image::encode_rle(picture.pixels(), workers), false)};
+}
+
+TEST(Still, TurnsFromPictureToPicture) {
+    constexpr int times = 3;
+    Still still = still_of({.times = times, .turn = 25});
+    const wire::Time now{};
+    still.start(now);
+    wire::NetEvent event = description();
     for (int i = 0; i < times; ++i) {
         const auto view = asked(still.handle(event, now));
         ASSERT_TRUE(view) << i;
         EXPECT_FALSE(view->sketch) << "it waits for the cube";
-        ViewOptions expected = options;
-        expected.orbit.azimuth = 10 + 25 * i;
-        EXPECT_EQ(view->camera, *expected.camera(lattice));
+        EXPECT_EQ(view->camera, *options_from(10 + 25 * i).camera(lattice));
         EXPECT_FALSE(still.done());
         EXPECT_LT(still.progress(), 1);
-        base::Workers workers(1);
-        pb::Frame frame;
-        frame.set_number(static_cast<std::uint64_t>(i) + 1);
-        frame.set_revision(view->revision);
-        event =
-            wire::Received{.link = wire::LinkId{1},
-                           .message = wire::frame_message(
-                               frame, image::Image<image::Rgba8>(size.width, size.height), false, workers)};
+        EXPECT_FALSE(asked(still.handle(wire::Tick{}, now))) << "one after the other";
+        event = frame_of(view->revision);
     }
     still.handle(event, now);
     EXPECT_TRUE(still.done());
     const auto picture = still.take();
     ASSERT_TRUE(picture);
     EXPECT_EQ(picture->each.size(), 3U);
+}
+
+// From the second on, and never two views at once, of which the newer would take the other's place.
+TEST(Still, AsksAhead) {
+    Still still = still_of({.times = 4, .turn = 25, .in_flight = 2});
+    const wire::Time now{};
+    still.start(now);
+    const auto revision = [&](const wire::NetEvent& event) -> std::uint64_t {
+        const auto view = asked(still.handle(event, now));
+        return view ? view->revision : 0;
+    };
+    EXPECT_EQ(revision(description()), 1U);
+    EXPECT_EQ(revision(wire::Tick{}), 0U)
+        << "the cube may be loading, and only the newest view be drawn then";
+    EXPECT_EQ(revision(frame_of(1)), 2U);
+    EXPECT_EQ(revision(wire::Tick{}), 3U);
+    EXPECT_EQ(revision(wire::Tick{}), 0U);
+    EXPECT_EQ(revision(frame_of(2)), 4U);
+    EXPECT_EQ(revision(frame_of(3)), 0U) << "there are no more";
+    EXPECT_FALSE(still.done());
+    EXPECT_EQ(revision(frame_of(4)), 0U);
+    EXPECT_TRUE(still.done());
+    const auto picture = still.take();
+    ASSERT_TRUE(picture);
+    EXPECT_EQ(picture->each.size(), 4U);
 }
 
 }  // namespace

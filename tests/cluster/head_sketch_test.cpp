@@ -113,7 +113,7 @@ class HeadSketchTest : public testing::Test {
     void finish(const Finish& job) {
         pb::Frame frame;
         frame.set_number(job.merge.frame->number);
-        frame.set_revision(job.view.revision);
+        frame.set_revision(job.view->revision);
         frame.set_sketch(job.sketch);
         take(head_->handle(Finished{job.merge.frame->number, wire::message(frame)}, now_));
     }

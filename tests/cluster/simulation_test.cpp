@@ -180,7 +180,7 @@ void storm(const Storm& storm) {
         EXPECT_EQ(support::difference(expected, picture_of(*simulation.newest_frame(), view)).largest, 0)
             << "seed " << seed;
         EXPECT_TRUE(simulation.run_until([&] { return simulation.head().roster().all_ready(); }));
-        EXPECT_EQ(simulation.canvases(), 0U) << "seed " << seed;
+        EXPECT_EQ(simulation.pictures(), 0U) << "seed " << seed;
     }
 }
 

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "common/image/finish.h"
+#include "common/image/lit_blocks.h"
 #include "common/image/over.h"
 #include "common/image/rle.h"
 #include "tests/support/simd_targets.h"
@@ -165,13 +166,16 @@ std::vector<std::byte> coded_plainly(std::span<const Rgba8> pixels) {
             put(0x80 | (run - 2)), put_colour(pixels[i]);
             i += run;
         } else {
-            std::size_t n = 1;
-            while (i + n < pixels.size() && n < 128 && run_at(i + n) == 1) {
-                ++n;
+            std::size_t end = i + 1;
+            while (end < pixels.size() && run_at(end) < 4) {
+                ++end;
             }
-            put(n - 1);
-            for (; n > 0; --n) {
-                put_colour(pixels[i++]);
+            while (i < end) {
+                std::size_t n = std::min<std::size_t>(128, end - i);
+                put(n - 1);
+                for (; n > 0; --n) {
+                    put_colour(pixels[i++]);
+                }
             }
         }
     }
@@ -209,6 +213,50 @@ TEST(Kernels, RunLengthsAreTheFormatToTheByte) {
             ASSERT_TRUE(back.front() == Rgba8{} && back.back() == Rgba8{});
         }
     });
+}
+
+// Rows with a few bright pixels, or many, noted in parts.
+TEST(LitBlocks, NoneIsMissedAndEmptySkyIsTold) {
+    std::mt19937 random(3);
+    for (const int width : {1, 15, 16, 300, 1024, 2100}) {
+        constexpr int height = 12;
+        Image<RgbaF> image(width, height);
+        LitBlocks blocks(width, height);
+        for (int y = 0; y < height; ++y) {
+            for (RgbaF& pixel : image.row(y)) {
+                const bool lit = y % 3 == 0 ? random() % 200 == 0 : y % 3 == 1 && random() % 10 > 0;
+                pixel = lit ? RgbaF{0, 0, 1e-30F, 0} : RgbaF{};
+            }
+            const int middle = static_cast<int>(random() % static_cast<unsigned>(width));
+            const auto row = std::span(std::as_const(image).row(y));
+            const Range left = blocks.note(0, y, row.first(static_cast<std::size_t>(middle)));
+            const Range right = blocks.note(middle, y, row.subspan(static_cast<std::size_t>(middle)));
+            for (int x = 0; x < width; ++x) {
+                const bool in = left.contains(x) || right.contains(x);
+                EXPECT_TRUE(in || image.at(x, y).b == 0) << x << ", " << y;
+            }
+        }
+        int told = 0;
+        for (int round = 0; round < 2000; ++round) {
+            const auto number = [&](int below) {
+                return static_cast<int>(random() % static_cast<unsigned>(below));
+            };
+            const int x = number(width + 9) - 5, y = number(height + 9) - 5;
+            const Rect rect{x, y, x + number(90), y + number(5)};
+            const Rect inside = view::intersection(rect, {0, 0, width, height});
+            bool lit = false;
+            for (int j = inside.y0; j < inside.y1; ++j) {
+                for (int i = inside.x0; i < inside.x1; ++i) {
+                    lit = lit || image.at(i, j).b != 0;
+                }
+            }
+            const bool any = blocks.any(rect);
+            EXPECT_TRUE(any || !lit) << x << ", " << y;
+            // A row whose few pixels are all bright is taken for full.
+            told += !any && !inside.empty() ? 1 : 0;
+        }
+        EXPECT_TRUE(told > 100 || width < 16) << "of a picture that is a third empty, " << told << " told";
+    }
 }
 
 }  // namespace

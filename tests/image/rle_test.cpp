@@ -39,10 +39,21 @@ TEST(Rle, KnownBytes) {
     EXPECT_EQ(encoded({a}), bytes_of({0x00, 1, 2, 3}));
     EXPECT_EQ(encoded({a, b}), bytes_of({0x01, 1, 2, 3, 4, 5, 6}));
     EXPECT_EQ(encoded({a, a}), bytes_of({0x80, 1, 2, 3}));
-    EXPECT_EQ(encoded({b, a, a, a, b}), bytes_of({0x00, 4, 5, 6, 0x81, 1, 2, 3, 0x00, 4, 5, 6}));
+    EXPECT_EQ(encoded({b, a, a, a, a, b}), bytes_of({0x00, 4, 5, 6, 0x82, 1, 2, 3, 0x00, 4, 5, 6}));
+    EXPECT_EQ(encoded({a, a, b, b, b, a}), bytes_of({0x80, 1, 2, 3, 0x81, 4, 5, 6, 0x00, 1, 2, 3}));
+    // A stretch does not end for so little.
+    EXPECT_EQ(encoded({b, a, a, a, b}), bytes_of({0x04, 4, 5, 6, 1, 2, 3, 1, 2, 3, 1, 2, 3, 4, 5, 6}));
     EXPECT_EQ(encoded(Pixels(65, a)), bytes_of({0xbf, 1, 2, 3}));
     EXPECT_EQ(encoded(Pixels(66, a)), bytes_of({0xc0, 0, 1, 2, 3}));
     EXPECT_EQ(encoded(Pixels(66 + 0x3fff, a)), bytes_of({0xff, 0xff, 1, 2, 3}));
+}
+
+// Other coders may end one.
+TEST(Rle, ReadsRunsOfAnyLengthBetweenStretches) {
+    const Rgba8 a{1, 2, 3, 255}, b{4, 5, 6, 255};
+    Pixels pixels(5);
+    ASSERT_TRUE(decode_rle(bytes_of({0x00, 4, 5, 6, 0x81, 1, 2, 3, 0x00, 4, 5, 6}), pixels));
+    EXPECT_EQ(pixels, (Pixels{b, a, a, a, b}));
 }
 
 // By several threads, of pictures too small for that, of whole stretches and not, of runs and of none.
@@ -57,13 +68,35 @@ TEST(Rle, InPartsKeepsToTheBound) {
                 pixel = {static_cast<std::uint8_t>(colour), static_cast<std::uint8_t>(colour >> 8),
                          static_cast<std::uint8_t>(colour >> 16), 255};
             }
-            Bytes out(rle_bound(n));
-            out.resize(encode_rle(pixels, out, workers));
+            const base::Buffer out = encode_rle(pixels, workers);
+            EXPECT_LE(out.size(), rle_bound(n));
             Pixels back(n);
             ASSERT_TRUE(decode_rle(out, back)) << n;
             EXPECT_EQ(back, pixels) << n << " of " << colours;
         }
     }
+}
+
+TEST(Rle, PiecesComeInAnyOrder) {
+    std::mt19937 random(4);
+    Pixels pixels(5000);
+    for (Rgba8& pixel : pixels) {
+        pixel = {static_cast<std::uint8_t>(random() % 2 == 0 ? random() : 7), 3, 5, 255};
+    }
+    RlePieces pieces(pixels.size(), 700);  // 768 by whole stretches
+    ASSERT_EQ(pieces.pieces(), 7U);
+    EXPECT_EQ(pieces.range(6), (std::pair<std::size_t, std::size_t>{4608, 5000}));
+    Bytes expected;
+    for (const std::size_t piece : {3, 0, 6, 5, 1, 4, 2}) {
+        pieces.code(piece, pixels);
+    }
+    for (std::size_t piece = 0; piece < 7; ++piece) {
+        const auto [begin, end] = pieces.range(piece);
+        const Bytes one = encoded(Pixels(pixels.begin() + static_cast<std::ptrdiff_t>(begin),
+                                         pixels.begin() + static_cast<std::ptrdiff_t>(end)));
+        expected.insert(expected.end(), one.begin(), one.end());
+    }
+    EXPECT_TRUE(std::ranges::equal(pieces.join(), expected));
 }
 
 TEST(Rle, AlphaIsNotSent) {

@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace shearwater::image {
 namespace {
@@ -148,6 +151,110 @@ TEST(Warp, TakesWindowsSmallerThanTheFace) {
     }
     EXPECT_GT(same, 500);
     EXPECT_GT(dark, 500);
+}
+
+// Windows whose bands are filled one by one, from what they hold in the end.
+class BandByBand {
+  public:
+    BandByBand(const Camera& camera, const ImageSize& size, const Factorisation& f)
+        : whole_(patterned(f)), bands_(view::bands_of(f)), seen_(size.width, size.height) {
+        constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+        for (const Window& window : whole_) {
+            windows_.push_back({window.face, window.rect, {window.rect.width(), window.rect.height()}});
+            std::ranges::fill(windows_.back().pixels.pixels(), RgbaF{nan, nan, nan, nan});
+        }
+        warp_.emplace(f, windows_, bands_, camera, size, background);
+    }
+    void fill(std::size_t band) {
+        put(band, whole_);
+        for (const std::size_t stripe : warp_->advance(band + 1, workers_)) {
+            const int begin = static_cast<int>(stripe) * Warp::stripe_rows;
+            for (int y = begin; y < std::min(begin + Warp::stripe_rows, seen_.height()); ++y) {
+                std::ranges::copy(warp_->picture().row(y), seen_.row(y).begin());
+            }
+            ++stripes_;
+        }
+    }
+    // What is still resampled from it is seen.
+    void spoil(std::size_t band) {
+        const Rect& rect = bands_[band].rect;
+        for (int j = rect.y0; j < rect.y1; ++j) {
+            std::ranges::fill(part(windows_, band, j), RgbaF{0, 1, 0, 1});
+        }
+    }
+    const std::vector<Window>& whole() const { return whole_; }
+    std::size_t bands() const { return bands_.size(); }
+    Image<Rgba8> take() { return warp_->take(); }
+    // The picture, each stripe as it was when it was said to be whole, and how many were.
+    const Image<Rgba8>& seen() const { return seen_; }
+    int stripes() const { return stripes_; }
+
+    static constexpr view::Rgb background{0.1, 0.2, 0.3};
+
+  private:
+    std::span<RgbaF> part(std::vector<Window>& windows, std::size_t band, int j) const {
+        const Rect& rect = bands_[band].rect;
+        return windows[static_cast<std::size_t>(bands_[band].face)].pixels.row(j).subspan(
+            static_cast<std::size_t>(rect.x0), static_cast<std::size_t>(rect.width()));
+    }
+    void put(std::size_t band, std::vector<Window>& from) {
+        for (int j = bands_[band].rect.y0; j < bands_[band].rect.y1; ++j) {
+            std::ranges::copy(part(from, band, j), part(windows_, band, j).begin());
+        }
+    }
+
+    base::Workers workers_;
+    std::vector<Window> whole_, windows_;
+    std::vector<view::Band> bands_;
+    std::optional<Warp> warp_;
+    Image<Rgba8> seen_;
+    int stripes_ = 0;
+};
+
+// From all around, so that bands are rows, from top or bottom, or columns, of one face or of several.
+TEST(Warp, IsTheSameBandByBand) {
+    base::Workers workers;
+    const ImageSize size{330, 290};
+    for (const auto projection : {Projection::perspective, Projection::parallel}) {
+        for (const double elevation : {-80.0, -20.0, 10.0, 85.0}) {
+            for (const double distance : {10.0, 0.0}) {
+                const Camera camera =
+                    view::camera_on({40, elevation, distance}, lattice, projection, distance > 0 ? 100 : 40);
+                const Factorisation f = view::factorise(camera, size, lattice, {1});
+                BandByBand bands(camera, size, f);
+                for (std::size_t band = 0; band < bands.bands(); ++band) {
+                    bands.fill(band);
+                }
+                const auto at_once = warp(f, bands.whole(), camera, size, BandByBand::background, workers);
+                const auto picture = bands.take();
+                EXPECT_TRUE(std::ranges::equal(picture.pixels(), at_once.pixels()))
+                    << "elevation " << elevation << ", distance " << distance;
+                EXPECT_TRUE(std::ranges::equal(bands.seen().pixels(), at_once.pixels()));
+                EXPECT_EQ(bands.stripes(), 3) << "of 290 rows";
+            }
+        }
+    }
+}
+
+TEST(Warp, DoesNotWaitForBandsThatATileHasNothingOf) {
+    base::Workers workers;
+    const ImageSize size{600, 600};
+    for (const double elevation : {10.0, 89.0}) {  // rows; columns
+        const Camera camera = view::camera_on({0, elevation}, lattice);
+        const Factorisation f = view::factorise(camera, size, lattice, {1});
+        BandByBand bands(camera, size, f);
+        ASSERT_GE(bands.bands(), 5U);
+        const std::size_t half = bands.bands() / 2;
+        for (std::size_t band = 0; band < bands.bands(); ++band) {
+            bands.fill(band);
+            if (band >= half) {
+                bands.spoil(band - half);
+            }
+        }
+        const auto picture = bands.take();
+        const auto at_once = warp(f, bands.whole(), camera, size, BandByBand::background, workers);
+        EXPECT_TRUE(std::ranges::equal(picture.pixels(), at_once.pixels())) << "elevation " << elevation;
+    }
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "common/image/over_windows.h"
-#include "common/image/warp.h"
 #include "common/volume/statistics.h"
 #include "protocol/wire/picture.h"
 #include "renderer/culling/culler.h"
@@ -293,7 +292,7 @@ void Simulation::perform(head::Effects effects) {
     for (head::Job& job : effects.jobs) {
         fabric_.later(server_node, [this, job = std::move(job)]() mutable {
             if (auto* lay = std::get_if<head::Lay>(&job)) {
-                canvases_.lay(lay->merge);
+                pictures_.lay(lay->merge, *lay->view, workers_);
             } else if (auto* finish = std::get_if<head::Finish>(&job)) {
                 this->finish(*finish);
             } else if (const auto* look = std::get_if<head::Look>(&job)) {
@@ -303,26 +302,24 @@ void Simulation::perform(head::Effects effects) {
             } else if (const auto* forget = std::get_if<head::Forget>(&job)) {
                 lookout_.forget(*forget);
             } else if (const auto* given_up = std::get_if<head::GiveUp>(&job)) {
-                EXPECT_TRUE(canvases_.done_with(given_up->frame)) << "what was never begun is given up";
+                EXPECT_TRUE(pictures_.give_up(given_up->frame)) << "what was never begun is given up";
             }
         });
     }
 }
 
 void Simulation::finish(head::Finish& job) {
-    const image::Canvas& canvas = canvases_.lay(job.merge);
-    const node::MergedFrame& merged = *job.merge.frame;
+    pictures_.lay(job.merge, *job.view, workers_);
+    const std::uint64_t number = job.merge.frame->number;
     pb::Frame frame;
-    frame.set_number(merged.number);
-    frame.set_revision(job.view.revision);
+    frame.set_number(number);
+    frame.set_revision(job.view->revision);
     frame.set_sketch(job.sketch);
     node::put(job.merge.account.missing, *frame.mutable_missing());
-    const auto picture = image::warp(merged.factorisation, canvas.windows(), job.view.camera, job.view.size,
-                                     job.view.tf.background, workers_);
-    canvases_.done_with(merged.number);
-    perform(head_.handle(
-        head::Finished{merged.number, wire::frame_message(std::move(frame), picture, false, workers_)},
-        fabric_.now()));
+    auto picture = pictures_.take(number);
+    perform(head_.handle(head::Finished{number, wire::frame_message(std::move(frame), job.view->size,
+                                                                    std::move(picture.coded), false)},
+                         fabric_.now()));
 }
 
 void Simulation::on_client_event(const wire::NetEvent& event) {

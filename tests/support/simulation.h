@@ -16,9 +16,9 @@
 #include "compositor/junction/junction.h"
 #include "renderer/leaf/leaf.h"
 #include "renderer/shear/brick_volume.h"
-#include "server/head/canvases.h"
 #include "server/head/head.h"
 #include "server/head/lookout.h"
+#include "server/head/pictures.h"
 
 namespace shearwater::support {
 
@@ -92,7 +92,7 @@ class Simulation {
 
     head::Head& head() { return head_; }
     // Frames that the head has begun to lay and neither finished nor given up.
-    std::size_t canvases() const { return canvases_.size(); }
+    std::size_t pictures() const { return pictures_.size(); }
     Fabric& fabric() { return fabric_; }
     const tree::Plan& plan() const { return head_.roster().plan(); }
 
@@ -112,7 +112,7 @@ class Simulation {
     volume::VoxelSource& source_;
     base::Workers workers_{1};
     head::Head head_;
-    head::Canvases canvases_;
+    head::Pictures pictures_;
     head::Lookout lookout_;
     std::map<tree::Place, std::unique_ptr<Daemon>> daemons_;
     std::uint64_t revision_ = 0;

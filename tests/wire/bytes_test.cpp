@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/wire/examples.h"
 
 namespace shearwater::wire::test {
@@ -83,6 +85,14 @@ const std::vector<std::string> version_1{
     "53575452010027004b0000000800000000000000"
     "0811120a080112060802180420021a15080312110a0410021804120908800110820118d804222409000000000000d03f"
     "11000000000000c03f18c0843d2080042864309c03388080808020",
+    // WantFunctions, since version 4
+    "5357545201002800760000000000000000000000"
+    "0a6e080612670801125f0a26122409000000000000e03f11000000000000c03f19000000000000d03f21000000000000"
+    "f03f0a14221209000000000000d03f11000000000000d83f121d121b09000000000000f03f11000000000000f03f1900"
+    "0000000000f03f1a00180220011a0103102018242001",
+    // Functions, since version 4
+    "5357545201002900180000000400000000000000"
+    "080610031801220a0a001206080410021802280430063802",
     // CubeDescription
     "5357545201004000600000000000000000000000"
     "0a09637562652e6669747312084e474320363934361a074a592f4245414d22280a0908800110c80118da04121b090000"
@@ -146,6 +156,19 @@ TEST(Bytes, OfWhatHasToDoWithSketches) {
             }
         }
     }
+}
+
+// What culling adds, likewise.
+TEST(Bytes, OfWhatHasToDoWithCulling) {
+    const std::vector<Message> culling = culling_examples();
+    const std::vector<Message> plain = examples();
+    const auto of = [&](const Message& changed) {
+        return body_of(*std::ranges::find(plain, changed.body.index(),
+                                          [](const Message& message) { return message.body.index(); }));
+    };
+    EXPECT_EQ(body_of(culling.at(0)), of(culling[0]) + "2820320103");
+    EXPECT_EQ(body_of(culling.at(1)).size(), of(culling[1]).size() + 4);  // within the stats
+    EXPECT_EQ(body_of(culling.at(2)), of(culling[2]) + "5a0b080311000000000000e83f");
 }
 
 // And what pre-integrated classification does, of a view and of a factorisation.

@@ -181,6 +181,29 @@ pb::Windows windows() {
     return m;
 }
 
+pb::WantFunctions want_functions() {
+    pb::WantFunctions m;
+    pb::FunctionWant& want = *m.add_wants();
+    want.set_number(6);
+    fill(*want.mutable_key(), to_wire(function_key()));
+    want.add_known(3);
+    m.set_block_edge(32);
+    m.set_side(36);
+    m.set_renewal(1);
+    return m;
+}
+pb::Functions functions() {
+    pb::Functions m;
+    m.set_number(6);
+    m.set_place(3);
+    m.set_coarse(true);
+    fill(*m.mutable_blocks(), to_wire(volume::Box{{0, 0, 0}, {2, 1, 1}}));
+    m.set_side(4);
+    m.set_first_direction(6);
+    m.set_directions(2);
+    return m;
+}
+
 pb::CubeDescription cube_description() {
     pb::CubeDescription m;
     m.set_name("cube.fits");
@@ -246,6 +269,8 @@ std::vector<Message> examples() {
             message(render()),
             message(cancel()),
             message(windows(), bytes({1, 0, 2, 0, 3, 0, 255, 255})),
+            message(want_functions()),
+            message(functions(), bytes({1, 2, 3, 4})),
             message(cube_description()),
             message(tree_state()),
             message(to_wire(view_request())),
@@ -270,8 +295,22 @@ std::vector<Message> sketch_examples() {
             message(described), message(to_wire(view)), message(shown, bytes({9, 8, 7}))};
 }
 
+std::vector<Message> culling_examples() {
+    pb::Render drawn = render();
+    drawn.set_block_edge(32);
+    drawn.set_visible("\x03");
+    pb::Windows cost = windows();
+    cost.mutable_stats()->set_bricks_culled(5);
+    View view = view_request();
+    view.culling = {culling::Kind::opof, 0.75};
+    return {message(drawn), message(cost, bytes({1, 0, 2, 0, 3, 0, 255, 255})), message(to_wire(view))};
+}
+
 std::vector<Message> all_examples() {
     std::vector<Message> all = examples();
+    for (Message& message : culling_examples()) {
+        all.push_back(std::move(message));
+    }
     for (Message& message : sketch_examples()) {
         all.push_back(std::move(message));
     }
@@ -297,6 +336,13 @@ view::Factorisation factorisation() {
         {.axis = 2, .sign = 1, .width = 5, .height = 4, .origin = {-0.5, -0.25}, .pitch = {0.25, 0.125}},
         {.axis = 0, .sign = -1, .width = 3, .height = 2, .origin = {0.5, -1}, .pitch = {0.5, 0.5}}};
     return f;
+}
+
+culling::FunctionKey function_key() {
+    return {.footprint = culling::Footprint::column,
+            .basis = {.shape = view::Hat{0.5, 0.125, 0.25, 1}, .blanks = {{0.25, 0.375}}},
+            .rung = 2,
+            .level = 1};
 }
 
 View view_request() {

@@ -6,6 +6,7 @@
 #include "common/view/factorisation.h"
 #include "common/view/transfer_function.h"
 #include "protocol/wire/convert.h"
+#include "protocol/wire/convert_culling.h"
 #include "protocol/wire/message.h"
 
 namespace shearwater::wire::test {
@@ -14,10 +15,13 @@ namespace shearwater::wire::test {
 std::vector<Message> examples();
 // Of those that have to do with sketches another of each, with what has been added for them.
 std::vector<Message> sketch_examples();
-std::vector<Message> all_examples();  // both
+// And of those that have to do with culling.
+std::vector<Message> culling_examples();
+std::vector<Message> all_examples();  // all of them
 
 view::TransferFunction transfer_function();
 view::Factorisation factorisation();  // of two faces, 5 x 4 and 3 x 2 pixels
+culling::FunctionKey function_key();
 View view_request();
 
 }  // namespace shearwater::wire::test

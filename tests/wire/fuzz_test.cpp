@@ -51,12 +51,25 @@ void convert(const Body& body) {
         if (const auto from = factorisation_from(render->factorisation())) {
             EXPECT_TRUE(view::validate(*from));
         }
+        if (const auto from = visible_from(*render, {100, 40, 33}); from && *from) {
+            EXPECT_EQ((*from)->blocks.size(), (*from)->grid.size());
+        }
         if (const auto from = mapping_from(render->sketch())) {
             EXPECT_LE(from->lo, from->hi);
         }
         if (const auto from = transfer_function_from(render->transfer_function())) {
             EXPECT_TRUE(view::validate(*from));
         }
+    } else if (const auto* want = std::get_if<pb::WantFunctions>(&body)) {
+        for (const pb::FunctionWant& one : want->wants()) {
+            if (const auto from = function_key_from(one.key())) {
+                EXPECT_TRUE(view::validate(culling::at_height(from->basis, 1)));
+            }
+        }
+    } else if (const auto* functions = std::get_if<pb::Functions>(&body)) {
+        // Whatever it says, a part has a byte for each of its blocks and directions.
+        const auto from = functions_from(message(*functions, std::vector<std::byte>(4)));
+        EXPECT_TRUE(!from || from->codes.size() == 4);
     } else if (const auto* assign = std::get_if<pb::Assign>(&body)) {
         if (const auto from = box_from(assign->box())) {
             EXPECT_GT(from->voxels(), 0);

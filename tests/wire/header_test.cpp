@@ -55,6 +55,8 @@ const std::map<std::string, Expected, std::less<>> types{
     {"Render", {37, 256 * kib, 0}},
     {"Cancel", {38, mib, 0}},
     {"Windows", {39, mib, 1024 * mib}},
+    {"WantFunctions", {40, 4 * mib, 0}},
+    {"Functions", {41, mib, 16 * mib}},
     {"CubeDescription", {64, mib, 0}},
     {"TreeState", {65, 4 * mib, 0}},
     {"SetView", {66, mib, 0}},
@@ -117,7 +119,7 @@ TEST(Header, OfAnotherMagicVersionOrType) {
     for (const std::uint64_t version : {0, protocol_version + 1, 256, 65535}) {
         EXPECT_EQ(parse_header(header_of(version, 5, 0, 0)).error().reason, pb::REASON_BAD_VERSION);
     }
-    for (const std::uint64_t type : {0, 7, 15, 40, 69, 256, 65535}) {
+    for (const std::uint64_t type : {0, 7, 15, 42, 69, 256, 65535}) {
         EXPECT_EQ(parse_header(header_of(1, type, 0, 0)).error().reason, pb::REASON_BAD_TYPE);
     }
 }

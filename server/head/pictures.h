@@ -1,0 +1,52 @@
+#pragma once
+// The pictures that a head is making, each out of its intermediate images as far as their bands have come:
+// what Lay, Finish and GiveUp are carried out on.
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "common/base/buffer.h"
+#include "common/base/workers.h"
+#include "common/image/canvas.h"
+#include "common/image/rle.h"
+#include "common/image/warp.h"
+#include "protocol/node/merge.h"
+#include "protocol/wire/convert.h"
+
+namespace shearwater::head {
+
+class Pictures {
+  public:
+    // Merges bands into their frame's images, which begin with the first of them, and warps and codes what
+    // they make possible. The view is the same for all of a frame.
+    void lay(node::MergeJob& job, const wire::View& view, base::Workers& workers);
+    // The picture of a frame whose last band is laid, in run lengths.
+    struct Picture {
+        base::Buffer coded;
+        double warp_seconds = 0;
+        double encode_seconds = 0;
+    };
+    Picture take(std::uint64_t frame);
+    // A frame that was begun comes to nothing; false if it was not.
+    bool give_up(std::uint64_t frame);
+
+    std::size_t size() const { return by_frame_.size(); }
+
+  private:
+    struct Making {
+        std::shared_ptr<const node::MergedFrame> frame;
+        image::Canvas canvas;
+        std::optional<image::Warp> warp;         // of the canvas
+        std::optional<image::RlePieces> pieces;  // stripes of its picture
+        double warp_seconds = 0;
+        double encode_seconds = 0;
+    };
+
+    std::map<std::uint64_t, Making> by_frame_;
+    image::Canvas spare_;  // a frame's memory goes to the next
+};
+
+}  // namespace shearwater::head
