@@ -64,7 +64,7 @@ Box rounded(const Box& block, std::int64_t cell) {
     return box;
 }
 
-// Of lines along an axis: the least sum over all columns.
+// Of lines along an axis: the least over all columns of the most that is said of one.
 double least_of_columns(const std::vector<Part>& parts, const Box& block, std::size_t axis,
                         std::size_t direction) {
     const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -83,13 +83,13 @@ double least_of_columns(const std::vector<Part>& parts, const Box& block, std::s
             if (at_u >= block.hi[u] || at_v >= block.hi[v]) {
                 continue;
             }
-            double sum = 0;
+            double most = 0;
             for (const Part& part : parts) {
                 const bool has = part.cells.lo[u] <= at_u && at_u < part.cells.hi[u] &&
                                  part.cells.lo[v] <= at_v && at_v < part.cells.hi[v];
-                sum += has ? part.rate(direction) : 0;
+                most = std::max(most, has ? part.rate(direction) : 0);
             }
-            least = std::min(least, sum);
+            least = std::min(least, most);
         }
     }
     return least;

@@ -18,8 +18,8 @@ struct SubVolume {
 };
 
 // A block in one sub-volume is as that says. Of one that is cut, every line through a block's part has at
-// least the least of the parts' rates; and those that pass it half-way in some part's columns have the sum of
-// what the parts along that column say. Where nobody says anything there is no opacity.
+// least the least of the parts' rates; and those that pass it half-way in a column have what any part of that
+// column says. Where nobody says anything there is no opacity.
 FunctionTable merged(const BlockGrid& grid, const DirectionGrid& directions, Footprint footprint,
                      const std::vector<SubVolume>& parts);
 

@@ -9,12 +9,13 @@
 
 #include "common/volume/box.h"
 #include "renderer/culling/least_extinctions.h"
-#include "renderer/shear/code_volume.h"
+#include "renderer/shear/brick_volume.h"
 
 namespace shearwater::culling {
 
 struct Cells {
     volume::Box box;      // that are wholly the sub-volume's
+    volume::Box known;    // and those around that something is known of
     volume::Index3 n;     // voxels of the whole cube
     std::int64_t voxels;  // along a cell's side
     // Samples lie in the first part of a cell along the axis that its slices are across, so long.
@@ -22,15 +23,13 @@ struct Cells {
     // So many at the cube's ends count half: a ray's first sample there may stand for half a step, and its
     // last.
     std::int64_t ends;
-    // Extinctions in units of the cells of a row along axis 0 from one on.
+    // Extinctions in units of the known cells of a row along axis 0 from one on.
     std::function<void(const volume::Index3& first, std::span<std::int16_t> units)> row;
 };
 
-// Of a level of a sub-volume of a cube of n voxels.
-Cells cells_of_nodes(const shear::CodeVolume& nodes, int level, const volume::Box& box,
-                     const volume::Index3& n, const LeastExtinctions& extinctions);
-// Of its voxels.
-Cells cells_of_octants(const shear::CodeVolume& voxels, const volume::Box& box, const volume::Index3& n,
-                       const LeastExtinctions& extinctions);
+// Of a level of a volume; on level 0 with its halo.
+Cells cells_of_nodes(const shear::BrickVolume& volume, int level, const LeastExtinctions& extinctions);
+// Of its voxels, with its halo.
+Cells cells_of_octants(const shear::BrickVolume& volume, const LeastExtinctions& extinctions);
 
 }  // namespace shearwater::culling

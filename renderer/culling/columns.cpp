@@ -51,13 +51,13 @@ class Strip {
           block_v_(block_v),
           block_w_(block_w) {
         constexpr std::int64_t around = ColumnSheaf::farthest;
-        layers_ = within(w_, block_w * task.edge, (block_w + 1) * task.edge);
-        rows_ = within(v_, block_v * task.edge, (block_v + 1) * task.edge);
+        layers_ = within(task.cells.known, w_, block_w * task.edge, (block_w + 1) * task.edge);
+        rows_ = within(task.cells.box, v_, block_v * task.edge, (block_v + 1) * task.edge);
         if (empty()) {
             return;
         }
-        const Range filled = within(v_, rows_.lo - around, rows_.hi + around);
-        row_ = task.cells.box.cells(static_cast<int>(u_)) + 2 * around + column_padding;
+        const Range filled = within(task.cells.known, v_, rows_.lo - around, rows_.hi + around);
+        row_ = task.cells.known.cells(static_cast<int>(u_)) + 2 * around + column_padding;
         layer_ = row_ * (rows_.hi - rows_.lo + 2 * around);
         units_.assign(static_cast<std::size_t>(layer_ * (layers_.hi - layers_.lo) + column_padding), 0);
         fill(filled);
@@ -73,7 +73,7 @@ class Strip {
         const Box& blocks = task_.table.blocks;
         const auto count = task_.table.block_count();
         for (std::int64_t b = blocks.lo[u_]; b < blocks.hi[u_]; ++b) {
-            const Range columns = within(u_, b * task_.edge, (b + 1) * task_.edge);
+            const Range columns = within(task_.cells.box, u_, b * task_.edge, (b + 1) * task_.edge);
             Index3 at;
             at[u_] = b - blocks.lo[u_];
             at[v_] = block_v_ - blocks.lo[v_];
@@ -102,14 +102,13 @@ class Strip {
         std::int64_t lo, hi;
     };
 
-    // As far as the sub-volume's cells go.
-    Range within(std::size_t axis, std::int64_t lo, std::int64_t hi) const {
-        return {std::max(lo, task_.cells.box.lo[axis]), std::min(hi, task_.cells.box.hi[axis])};
+    static Range within(const Box& box, std::size_t axis, std::int64_t lo, std::int64_t hi) {
+        return {std::max(lo, box.lo[axis]), std::min(hi, box.hi[axis])};
     }
     std::size_t offset(std::int64_t u, std::int64_t v, std::int64_t w) const {
         constexpr std::int64_t around = ColumnSheaf::farthest;
         return static_cast<std::size_t>((w - layers_.lo) * layer_ + (v - rows_.lo + around) * row_ + u -
-                                        task_.cells.box.lo[u_] + around);
+                                        task_.cells.known.lo[u_] + around);
     }
     // In depth along the smallest distance of voxels, were all layers of the block there.
     std::uint8_t code_of(const ColumnCells& cells, const ColumnSheaf& sheaf) const {
@@ -121,8 +120,8 @@ class Strip {
 
     void fill(const Range& filled) {
         Box box;
-        box.lo[u_] = task_.cells.box.lo[u_];
-        box.hi[u_] = task_.cells.box.hi[u_];
+        box.lo[u_] = task_.cells.known.lo[u_];
+        box.hi[u_] = task_.cells.known.hi[u_];
         box.lo[v_] = filled.lo;
         box.hi[v_] = filled.hi;
         box.lo[w_] = layers_.lo;

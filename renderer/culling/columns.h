@@ -10,7 +10,8 @@
 //              a | /       |                  block only at a corner count where they are half-way.
 //    ----------+/--------+---------- w
 //
-// What of a line lies outside the sub-volume counts as clear, so what several sub-volumes find adds up.
+// What of a line lies outside the sub-volume and its halo counts as clear. Only lines that pass half-way
+// through the sub-volume's own cells are looked at.
 
 #include <stop_token>
 

@@ -17,10 +17,8 @@ FunctionTable functions_of(const shear::BrickVolume& volume, const FunctionKey& 
     // Of a basis of height 1: what the pin's height is multiplied with.
     const double length = std::min({spacing.x, spacing.y, spacing.z}) / height;
     const LeastExtinctions extinctions(table, volume.mapping().bits, length);
-    const shear::CodeVolume& nodes = volume.level(key.level);
-    const Cells cells = from_octants
-                            ? cells_of_octants(nodes, volume.box(), volume.cube(), extinctions)
-                            : cells_of_nodes(nodes, key.level, volume.box(), volume.cube(), extinctions);
+    const Cells cells =
+        from_octants ? cells_of_octants(volume, extinctions) : cells_of_nodes(volume, key.level, extinctions);
     return key.footprint == Footprint::column
                ? column_functions(cells, grid, volume.box(), directions, workers, stop)
                : block_functions(cells, grid, volume.box(), directions, workers, stop);

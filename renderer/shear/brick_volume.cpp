@@ -65,7 +65,8 @@ base::Result<BrickVolume> BrickVolume::load(volume::VoxelSource& source, const B
                 return refuse(base::Code::cancelled, box, "stopped").error();
             }
         }
-        volume.levels_ = std::move(builder).take_levels();
+        volume.levels_ = builder.take_levels();
+        volume.halo_ = builder.take_halo();
         if (!volume.survey(workers, stop)) {
             return refuse(base::Code::cancelled, box, "stopped").error();
         }
@@ -111,7 +112,7 @@ BrickVolume BrickVolume::of_level(int level, CodeVolume nodes, const Box& box, c
 }
 
 std::size_t BrickVolume::bytes() const {
-    std::size_t bytes = bricks_.ranges().size_bytes() + reaches().size_bytes();
+    std::size_t bytes = bricks_.ranges().size_bytes() + reaches().size_bytes() + halo_.bytes();
     for (const CodeVolume& level : levels_) {
         bytes += level.bytes();
     }

@@ -11,6 +11,7 @@
 #include "common/volume/mapping.h"
 #include "common/volume/source.h"
 #include "renderer/shear/code_volume.h"
+#include "renderer/shear/halo.h"
 
 namespace shearwater::shear {
 
@@ -45,6 +46,9 @@ class BrickVolume {
     // Of each of them, the codes that the segments may meet that begin in it.
     std::span<const CodeRange> reaches() const { return reaches_; }
 
+    // What lies around it, if it is loaded from its voxels.
+    const Halo& halo() const { return halo_; }
+
   private:
     // Finds out what its levels hold; false if stopped before.
     bool survey(base::Workers& workers, const std::stop_token& stop);
@@ -57,6 +61,7 @@ class BrickVolume {
     std::vector<CodeVolume> levels_;
     CodeGrid bricks_;
     std::vector<CodeRange> reaches_;
+    Halo halo_;
 };
 
 }  // namespace shearwater::shear

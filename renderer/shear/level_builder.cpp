@@ -36,6 +36,7 @@ LevelBuilder::LevelBuilder(const Box& box, const Index3& n, int bits, std::int64
         levels_.emplace_back(volume::nodes_kept(box, level++, n), bits);
         passing = room / 2 + 1;
     }
+    halo_ = Halo(box, flows_.front().nodes);
 }
 
 std::optional<Box> LevelBuilder::next() const {
@@ -67,6 +68,7 @@ bool LevelBuilder::keep(std::size_t level, std::int64_t from, base::Workers& wor
 bool LevelBuilder::rise(base::Workers& workers, const std::stop_token& stop) {
     std::int64_t from = flows_.front().end;
     flows_.front().end = next()->hi[2] + 1;
+    halo_.add(flows_.front().window, from, flows_.front().end, workers);
     for (std::size_t level = 0; flows_[level].end > from; ++level) {
         Flow& flow = flows_[level];
         if (!keep(level, from, workers, stop)) {
@@ -90,12 +92,8 @@ bool LevelBuilder::rise(base::Workers& workers, const std::stop_token& stop) {
     return true;
 }
 
-std::vector<CodeVolume> LevelBuilder::take_levels() && {
-    return std::move(levels_);
-}
-
 std::size_t LevelBuilder::bytes() const {
-    std::size_t bytes = 0;
+    std::size_t bytes = halo_.bytes();
     for (std::size_t level = 0; level < flows_.size(); ++level) {
         bytes += flows_[level].window.bytes() + levels_[level].bytes();
     }

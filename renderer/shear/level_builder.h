@@ -11,11 +11,13 @@
 #include <cstdint>
 #include <optional>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "common/base/workers.h"
 #include "common/volume/box.h"
 #include "renderer/shear/code_volume.h"
+#include "renderer/shear/halo.h"
 
 namespace shearwater::shear {
 
@@ -34,8 +36,10 @@ class LevelBuilder {
     // Takes them up the levels; false if stopped before, and of no use then.
     bool rise(base::Workers& workers, const std::stop_token& stop);
 
-    // Once nothing is left: the codes of each level, volume::nodes_kept of them.
-    std::vector<CodeVolume> take_levels() &&;
+    // Once nothing is left: the codes of each level, volume::nodes_kept of them; and what lies around the
+    // box.
+    std::vector<CodeVolume> take_levels() { return std::move(levels_); }
+    Halo take_halo() { return std::move(halo_); }
 
     // Of the levels and the windows.
     std::size_t bytes() const;
@@ -54,6 +58,7 @@ class LevelBuilder {
     std::int64_t planes_;
     std::vector<Flow> flows_;
     std::vector<CodeVolume> levels_;
+    Halo halo_;
 };
 
 }  // namespace shearwater::shear

@@ -28,7 +28,7 @@ struct Block {
     const shear::CodeVolume& nodes() const { return volume.level(0); }
     BlockCells cells() const {
         const LeastExtinctions extinctions(table, volume.mapping().bits, 1);
-        return {cells_of_nodes(nodes(), 0, volume.box(), volume.cube(), extinctions), box};
+        return {cells_of_nodes(volume, 0, extinctions), box};
     }
 
     double code(const volume::Index3& p) const {
