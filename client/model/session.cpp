@@ -182,13 +182,17 @@ void Session::on_frame(const wire::Message& message, wire::Time now) {
     if (sent->tree_ready && sent->revision == revision_ && sent->revision == answered_ + 1) {
         notice_link_speed(message.payload_size(), latency.count() - server_seconds);
     }
-    frame_ = FrameNote{.revision = sent->revision,
-                       .size = sent->size,
-                       .quality = sent->quality,
-                       .missing = std::move(*missing),
-                       .sketch = frame.sketch(),
-                       .bytes = message.payload_size(),
-                       .server_seconds = server_seconds};
+    const pb::LeafStats& leaves = frame.stats().leaves();
+    frame_ = FrameNote{
+        .revision = sent->revision,
+        .size = sent->size,
+        .quality = sent->quality,
+        .missing = std::move(*missing),
+        .sketch = frame.sketch(),
+        .bytes = message.payload_size(),
+        .server_seconds = server_seconds,
+        .opaque_bricks = leaves.bricks_total() - std::min(leaves.bricks_total(), leaves.bricks_empty()),
+        .culled_bricks = leaves.bricks_culled()};
     picture_ = Picture{sent->revision, sent->quality, frame_->missing.empty(), std::move(*pixels)};
     retry_after_ = first_retry;
     ready_at_frame_ = tree_.in_phase(pb::PHASE_READY);

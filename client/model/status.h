@@ -57,6 +57,8 @@ struct FrameNote {
     bool sketch = false;           // of a sketch of the cube, which is loading: its picture will follow
     std::size_t bytes = 0;         // as it travelled
     double server_seconds = 0;
+    // Bricks with opacity, and of those how many are left out since others hide them.
+    std::uint64_t opaque_bricks = 0, culled_bricks = 0;
 };
 
 // Means over the last two seconds; a latency is the time from sending a view to having its picture.

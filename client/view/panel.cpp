@@ -222,6 +222,25 @@ void quality(Desk& desk) {
     ImGui::EndDisabled();
 }
 
+// A switch, and how much of what has opacity others hide.
+void culling_switch(Desk& desk) {
+    culling::Settings& wanted = desk.wish.culling;
+    bool on = wanted.kind != culling::Kind::off;
+    if (ImGui::Checkbox("leave out what is hidden", &on)) {
+        wanted.kind = on ? culling::Kind::opof : culling::Kind::off;
+    }
+    const auto& frame = desk.status.frame;
+    if (on && frame && frame->opaque_bricks > 0) {
+        const double share =
+            static_cast<double>(frame->culled_bricks) / static_cast<double>(frame->opaque_bricks);
+        const std::string text = fmt::format("{:.0f} %", 100 * share);
+        ImGui::SameLine(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x -
+                        ImGui::CalcTextSize(text.c_str()).x);
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextUnformatted(text.c_str());
+    }
+}
+
 }  // namespace
 
 void panel(Desk& desk, ImVec2 from, ImVec2 size) {
@@ -236,6 +255,7 @@ void panel(Desk& desk, ImVec2 from, ImVec2 size) {
     camera_section(desk);
     colour_section(desk);
     quality(desk);
+    culling_switch(desk);
     speed(desk);
     tree_list(desk);
     ImGui::End();

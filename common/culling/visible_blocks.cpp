@@ -47,7 +47,8 @@ class FacePass {
           grid_(grid),
           kind_(settings.kind),
           depth_(-std::log1p(-settings.threshold)),
-          visible_(visible) {
+          visible_(visible),
+          step_(std::max(factorisation.slice_pitch(), 1.0)) {
         for (std::size_t a = 0; a < 3; ++a) {
             // Cells across the cube's end, of whichever size, are left out.
             const std::int64_t cell = std::max<std::int64_t>(std::int64_t{1} << factorisation.level(), 4);
@@ -184,14 +185,17 @@ class FacePass {
             if (slab.thickness == 0) {
                 continue;
             }
-            // Lines that are out of the cube there are among none of its blocks' functions.
+            // No function is of lines that come in or go out by the cube's sides, nor by how much a ray's
+            // first or last sample in it is less than a step.
+            const double before = near - face_.sign * step_, behind = far + face_.sign * step_;
+            const Interval on_u = between(u, before, behind), on_v = between(v, before, behind);
+            if (on_u.lo < 0 || on_u.hi >= ends_[ua] || on_v.lo < 0 || on_v.hi >= ends_[va]) {
+                continue;
+            }
             const double middle = slab.middle - origin();
             const bool half_way = kind_ == Kind::opof;
             const Interval by_u = half_way ? between(u, middle, middle) : between(u, near, far);
             const Interval by_v = half_way ? between(v, middle, middle) : between(v, near, far);
-            if (by_u.lo < 0 || by_u.hi >= ends_[ua] || by_v.lo < 0 || by_v.hi >= ends_[va]) {
-                continue;
-            }
             const Run run_u = run(by_u), run_v = run(by_v);
             float least = std::numeric_limits<float>::max();
             for (const float* const of : rates) {
@@ -231,6 +235,7 @@ class FacePass {
     Kind kind_;
     double depth_;  // that hides what is behind
     BlockSet& visible_;
+    double step_;                 // at most from slice to slice, in voxels
     std::array<double, 3> ends_;  // of what functions are of, in voxels
     std::vector<Side> u_, v_;
     std::vector<Slab> slabs_;

@@ -11,8 +11,7 @@ namespace {
 
 // Of so many voxels a side: those that a box owns all of, since what lies across a cut is counted by neither.
 Cells of(const shear::BrickVolume& volume, std::int64_t voxels) {
-    Cells cells{
-        .box = {}, .known = {}, .n = volume.cube(), .voxels = voxels, .sampled = 1, .ends = 1, .row = {}};
+    Cells cells{.box = {}, .known = {}, .n = volume.cube(), .voxels = voxels, .sampled = 1, .row = {}};
     for (std::size_t a = 0; a < 3; ++a) {
         cells.box.lo[a] = (volume.box().lo[a] + voxels - 1) / voxels;
         cells.box.hi[a] = std::max(volume.box().hi[a] / voxels, cells.box.lo[a]);
@@ -59,8 +58,6 @@ Cells cells_of_nodes(const shear::BrickVolume& volume, int level, const LeastExt
     Cells cells = of(volume, std::int64_t{1} << level);
     // On the first plane, or half-way to the next.
     cells.sampled = 0.5;
-    // A ray that comes in from the side has its first sample at most one step further.
-    cells.ends = 2;
     if (level == 0) {
         reach_out(cells, volume.halo(), shear::Halo::octant);
     }

@@ -20,9 +20,6 @@ struct Cells {
     std::int64_t voxels;  // along a cell's side
     // Samples lie in the first part of a cell along the axis that its slices are across, so long.
     double sampled;
-    // So many at the cube's ends count half: a ray's first sample there may stand for half a step, and its
-    // last.
-    std::int64_t ends;
     // Extinctions in units of the known cells of a row along axis 0 from one on.
     std::function<void(const volume::Index3& first, std::span<std::int16_t> units)> row;
 };

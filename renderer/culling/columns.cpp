@@ -60,6 +60,7 @@ class Strip {
         row_ = task.cells.known.cells(static_cast<int>(u_)) + 2 * around + column_padding;
         layer_ = row_ * (rows_.hi - rows_.lo + 2 * around);
         units_.assign(static_cast<std::size_t>(layer_ * (layers_.hi - layers_.lo) + column_padding), 0);
+        leave_out(around);
         fill(filled);
     }
 
@@ -118,6 +119,28 @@ class Strip {
         return code_below(depth * static_cast<double>(voxels) / static_cast<double>(all));
     }
 
+    // No line is looked at that leaves the cube by its sides: what is beyond counts for nothing.
+    void leave_out(std::int64_t around) {
+        constexpr std::uint16_t none = 65535;
+        const auto cells = [&](std::size_t axis) { return (task_.cells.n[axis] - 1) / task_.cells.voxels; };
+        const Range u{task_.cells.known.lo[u_] - around, task_.cells.known.hi[u_] + around};
+        for (std::int64_t w = layers_.lo; w < layers_.hi; ++w) {
+            for (std::int64_t v = rows_.lo - around; v < rows_.hi + around; ++v) {
+                std::uint16_t* const row = &units_[offset(u.lo, v, w)];
+                if (v < 0 || v >= cells(v_)) {
+                    std::fill(row, row + (u.hi - u.lo), none);
+                    continue;
+                }
+                if (u.lo < 0) {
+                    std::fill(row, row - u.lo, none);
+                }
+                if (u.hi > cells(u_)) {
+                    std::fill(row + (cells(u_) - u.lo), row + (u.hi - u.lo), none);
+                }
+            }
+        }
+    }
+
     void fill(const Range& filled) {
         Box box;
         box.lo[u_] = task_.cells.known.lo[u_];
@@ -131,9 +154,9 @@ class Strip {
         steps[u_] = 1;
         steps[v_] = row_;
         steps[w_] = layer_;
+        // A ray's first sample at the cube's end may stand for half a step, and so its last.
         const auto at_end = [&](std::size_t axis, std::int64_t cell) {
-            return cell < task_.cells.ends ||
-                   cell >= (task_.cells.n[axis] - 1) / task_.cells.voxels - task_.cells.ends;
+            return axis == w_ && (cell == 0 || cell == (task_.cells.n[axis] - 1) / task_.cells.voxels - 1);
         };
         for (std::int64_t z = box.lo[2]; z < box.hi[2]; ++z) {
             for (std::int64_t y = box.lo[1]; y < box.hi[1]; ++y) {

@@ -10,8 +10,8 @@
 //              a | /       |                  block only at a corner count where they are half-way.
 //    ----------+/--------+---------- w
 //
-// What of a line lies outside the sub-volume and its halo counts as clear. Only lines that pass half-way
-// through the sub-volume's own cells are looked at.
+// What of a line lies outside the sub-volume and its halo counts as clear. Only lines are looked at that stay
+// in the cube from plane to plane, and pass half-way through the sub-volume's own cells.
 
 #include <stop_token>
 

@@ -202,5 +202,49 @@ TEST(Simulation, AnyStormOfDeathsBetweenBandsEndsWhole) {
     storm({.seeds = 10, .size = size});
 }
 
+// Functions are found, lost with whoever carries them, and found again; whole pictures stay the same
+// throughout.
+TEST(Simulation, CullingOverAnyStormOfDeathsEndsWhole) {
+    const volume::Index3 n{97, 97, 65};
+    Waves source(true);
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+        const tree::Topology topology = *tree::full_tree(2, 3);
+        support::Simulation simulation(seed, topology, n, source);
+        for (const tree::Place place : all_daemons(simulation)) {
+            simulation.start_daemon(place);
+        }
+        wire::View view = view_of(n);
+        view.level_of_detail = false;
+        view.camera = view::camera_on({.azimuth = 0, .elevation = 0}, {.n = n, .spacing = {1, 1, 1}},
+                                      view::Projection::parallel);
+        view.tf.opacity_pins = {view::Flat{0.8}};
+        std::uint64_t revision = simulation.ask(view);
+        ASSERT_TRUE(simulation.run_until([&] { return simulation.answered_whole(revision); })) << seed;
+        const auto expected = picture_of(*simulation.newest_frame(), view);
+        view.culling = {.kind = culling::Kind::opof};
+        std::mt19937_64& random = simulation.fabric().random();
+        const std::vector<tree::Place> places = all_daemons(simulation);
+        for (int death = 0; death < 4; ++death) {
+            simulation.ask(view);
+            simulation.run_some(static_cast<int>(random() % 400));
+            const tree::Place victim = places[random() % places.size()];
+            simulation.kill_daemon(victim);
+            simulation.run_some(static_cast<int>(random() % 50));
+            simulation.start_daemon(victim);
+        }
+        bool any = false;
+        for (int n_asked = 0; n_asked < 100 && !any; ++n_asked) {
+            const std::uint64_t culled = simulation.culled_bricks();
+            revision = simulation.ask(view);
+            ASSERT_TRUE(simulation.run_until([&] { return simulation.answered_whole(revision); })) << seed;
+            EXPECT_LE(support::difference(picture_of(*simulation.newest_frame(), view), expected).largest, 1)
+                << seed;
+            any = simulation.culled_bricks() > culled;
+            simulation.fabric().pass_time(std::chrono::seconds(20));
+        }
+        EXPECT_TRUE(any) << seed;
+    }
+}
+
 }  // namespace
 }  // namespace shearwater

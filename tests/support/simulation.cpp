@@ -185,7 +185,7 @@ struct Simulation::Renderer final : Simulation::Daemon {
             tell(leaf::Drawn{draw.job, wire::windows_message(draw.frame, 0, {}), true});
         }
         const auto classified = shear::classify(volume, draw.tf, draw.factorisation.classify, sim.workers_);
-        shear::render_bands(
+        const auto stats = shear::render_bands(
             volume, classified, draw.factorisation, bands, sim.workers_,
             [&](const shear::DrawnBands& drawn) {
                 const bool last = drawn.bands == bands.size();
@@ -197,6 +197,7 @@ struct Simulation::Renderer final : Simulation::Daemon {
                 });
             },
             {}, draw.visible ? &*draw.visible : nullptr);
+        sim.culled_bricks_ += stats.bricks_culled;
     }
 
     void make_sketch(leaf::Job job, const leaf::Share& share, int level) {

@@ -90,6 +90,9 @@ class Simulation {
     bool answered(std::uint64_t revision) const;
     bool answered_whole(std::uint64_t revision) const;
 
+    // That renderers have left out of frames so far.
+    std::uint64_t culled_bricks() const { return culled_bricks_; }
+
     head::Head& head() { return head_; }
     // Frames that the head has begun to lay and neither finished nor given up.
     std::size_t pictures() const { return pictures_.size(); }
@@ -118,6 +121,7 @@ class Simulation {
     std::uint64_t revision_ = 0;
     std::optional<wire::Message> frame_, sketch_;
     int frames_ = 0;
+    std::uint64_t culled_bricks_ = 0;
 };
 
 }  // namespace shearwater::support

@@ -1,0 +1,102 @@
+// Culling in a tree of daemons: what is hidden is left out once its renderers' functions have come, and the
+// picture stays the same.
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <iostream>
+
+#include "deploy/local_tree.h"
+#include "tests/support/cubes.h"
+#include "tests/support/pictures.h"
+#include "tests/support/tree_client.h"
+
+namespace shearwater {
+namespace {
+
+wire::View view_at(const view::Lattice& lattice, double azimuth, const view::TransferFunction& tf) {
+    wire::View view;
+    view.camera = view::camera_on({.azimuth = azimuth, .elevation = 15}, lattice);
+    view.size = {120, 100};
+    view.tf = tf;
+    view.level_of_detail = false;
+    return view;
+}
+
+view::TransferFunction fog(double height) {
+    return {.opacity_pins = {view::Ramp{0, height / 2, 1, height}},
+            .colour_pins = {{0, {0.2, 0.3, 1}}, {1, {1, 0.8, 0.3}}},
+            .background = {}};
+}
+
+class CullingTree : public testing::Test {
+  protected:
+    void start(int branching, int levels) {
+        ASSERT_TRUE(samples::write_sample("random", {130, 97, 101}, 3, path_));
+        deploy::LocalTree::Options options;
+        options.cube.path = path_;
+        options.cube.range = {0, 1};
+        options.tree.tree = {branching, levels};
+        auto tree = deploy::LocalTree::start(options, secret_);
+        ASSERT_TRUE(tree) << tree.error().message();
+        tree_.emplace(*std::move(tree));
+        client_.emplace(tree_->address(), secret_);
+        ASSERT_TRUE(client_->wait_ready() && client_->wait_described());
+    }
+
+    // Draws the view until something of it is left out, and compares it with all of it.
+    void expect_left_out(wire::View view) {
+        const auto all = client_->draw(view);
+        ASSERT_TRUE(all);
+        EXPECT_EQ(all->stats.leaves().bricks_culled(), 0U);
+        view.culling = {.kind = culling::Kind::opof};
+        std::optional<support::Shot> some;
+        for (int n = 0; n < 3000 && (!some || some->stats.leaves().bricks_culled() == 0); ++n) {
+            some = client_->draw(view);
+            ASSERT_TRUE(some);
+            EXPECT_LE(support::difference(some->image, all->image).largest, 1);
+        }
+        EXPECT_GT(some->stats.leaves().bricks_culled(), 0U);
+        std::cout << some->stats.leaves().bricks_culled() << " of " << some->stats.leaves().bricks_total()
+                  << " bricks left out, samples " << all->stats.leaves().samples() << " -> "
+                  << some->stats.leaves().samples() << "\n";
+    }
+
+    const support::TemporaryFolder scratch_;
+    const std::string path_ = scratch_.path("cube.fits");
+    const link::Secret secret_ = link::Secret::random();
+    std::optional<deploy::LocalTree> tree_;
+    std::optional<support::TreeClient> client_;
+};
+
+TEST_F(CullingTree, LeavesOutWhatIsHidden) {
+    start(2, 3);
+    for (const double azimuth : {10.0, 130.0}) {
+        expect_left_out(view_at(*client_->lattice(), azimuth, fog(0.9)));
+    }
+    // Another height needs no other functions: what is hidden is known at once.
+    wire::View view = view_at(*client_->lattice(), 10, fog(0.9));
+    view.culling = {.kind = culling::Kind::opof};
+    view.tf.opacity_pins = {view::Ramp{0, 0.48, 1, 0.96}};
+    const auto shot = client_->draw(view);
+    ASSERT_TRUE(shot);
+    EXPECT_GT(shot->stats.leaves().bricks_culled(), 0U);
+}
+
+TEST_F(CullingTree, GoesOnOverADeathOfARenderer) {
+    start(2, 2);
+    expect_left_out(view_at(*client_->lattice(), 30, fog(0.9)));
+    ASSERT_EQ(kill(tree_->daemon_ids().at(0), SIGKILL), 0);
+    const auto with_it_alive = [&](bool ready) {
+        return client_->wait_until([&] {
+            tree_->keep_alive();
+            return client_->state().ready() == ready;
+        });
+    };
+    ASSERT_TRUE(with_it_alive(false));
+    ASSERT_TRUE(with_it_alive(true));
+    expect_left_out(view_at(*client_->lattice(), 30, fog(0.9)));
+}
+
+}  // namespace
+}  // namespace shearwater
