@@ -20,4 +20,7 @@ struct FunctionTable {
     bool operator==(const FunctionTable&) const = default;
 };
 
+// The same over a grid of `times` as many cells along either angle, whose cells lie in those of the other.
+FunctionTable finer(const FunctionTable& table, int times);
+
 }  // namespace shearwater::culling

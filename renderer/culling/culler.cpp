@@ -19,9 +19,15 @@ FunctionTable functions_of(const shear::BrickVolume& volume, const FunctionKey& 
     const LeastExtinctions extinctions(table, volume.mapping().bits, length);
     const Cells cells =
         from_octants ? cells_of_octants(volume, extinctions) : cells_of_nodes(volume, key.level, extinctions);
-    return key.footprint == Footprint::column
-               ? column_functions(cells, grid, volume.box(), directions, workers, stop)
-               : block_functions(cells, grid, volume.box(), directions, workers, stop);
+    // Octants are too coarse for narrow directions to say more than wide ones.
+    constexpr int wider = 3;
+    const bool wide = from_octants && directions.side() % (4 * wider) == 0;
+    const DirectionGrid grid_of_them = wide ? DirectionGrid(directions.side() / wider) : directions;
+    FunctionTable table_of_them =
+        key.footprint == Footprint::column
+            ? column_functions(cells, grid, volume.box(), grid_of_them, workers, stop)
+            : block_functions(cells, grid, volume.box(), grid_of_them, workers, stop);
+    return wide ? finer(table_of_them, wider) : table_of_them;
 }
 
 Culler::Culler(const shear::BrickVolume& volume, const view::Vec3& spacing, std::int64_t block_edge, int side)

@@ -68,9 +68,12 @@ void Jobs::perform(leaf::Effect effect) {
             end(job.job);
         });
     } else if (auto* finding = std::get_if<leaf::Find>(&effect)) {
-        boost::asio::post(finding_, [this, job = std::move(*finding), stop = begin(finding->job)] {
-            find(job, stop);
-            end(job.job);
+        boost::asio::post(loading_, [this, job = std::move(*finding), stop = begin(finding->job)] {
+            find(job, true, loaders_, stop);
+            boost::asio::post(finding_, [this, job, stop] {
+                find(job, false, finders_, stop);
+                end(job.job);
+            });
         });
     } else if (auto* drawing = std::get_if<leaf::Draw>(&effect)) {
         boost::asio::post(drawing_, [this, job = std::move(*drawing), stop = begin(drawing->job)] {
@@ -226,30 +229,26 @@ void Jobs::draw(const leaf::Draw& job, const std::stop_token& stop) {
     }
 }
 
-void Jobs::find(const leaf::Find& job, const std::stop_token& stop) {
+void Jobs::find(const leaf::Find& job, bool coarse, base::Workers& workers, const std::stop_token& stop) {
     Volume volume;
     {
         const std::lock_guard lock(mutex_);
         volume = found_in_;
     }
-    if (volume == nullptr) {
-        return;  // another is being loaded, and this job is told to stop
+    // Octants are of voxels. Without a volume another is being loaded, and this job is told to stop.
+    if (volume == nullptr || stop.stop_requested() || (coarse && job.key.level > 0)) {
+        return;
     }
-    const culling::BlockGrid grid(volume->cube(), job.block_edge);
-    const culling::DirectionGrid directions(job.side);
-    for (const bool coarse : {true, false}) {
-        if (coarse && job.key.level > 0) {
-            continue;  // octants are of voxels
-        }
-        culling::FunctionTable table =
-            culling::functions_of(*volume, job.key, grid, directions, coarse, job.spacing, finders_, stop);
-        if (stop.stop_requested()) {
-            return;
-        }
-        tell_(leaf::Found{job.job, std::move(table), coarse});
+    culling::FunctionTable table =
+        culling::functions_of(*volume, job.key, culling::BlockGrid(volume->cube(), job.block_edge),
+                              culling::DirectionGrid(job.side), coarse, job.spacing, workers, stop);
+    if (stop.stop_requested()) {
+        return;
     }
-    volume.reset();
-    tell_memory();
+    tell_(leaf::Found{job.job, std::move(table), coarse});
+    if (!coarse) {
+        tell_memory();
+    }
 }
 
 void Jobs::tell_memory() {

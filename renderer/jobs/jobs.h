@@ -1,7 +1,7 @@
 #pragma once
-// Carries out a leaf's jobs: counting and loading on one thread, drawing on another, finding opacity
-// functions on a third, each with workers that share its loops, so that a sketch can be drawn while the rest
-// is loading.
+// Carries out a leaf's jobs: counting, loading and finding coarse opacity functions on one thread, drawing on
+// another, finding all of them in the background on a third, each with workers that share its loops. So a
+// sketch can be drawn while the rest is loading.
 
 #include <boost/asio/thread_pool.hpp>
 #include <chrono>
@@ -40,7 +40,7 @@ class Jobs {
     void count(const leaf::Count& count, const std::stop_token& stop);
     void load(const leaf::Load& load, const std::stop_token& stop);
     void draw(const leaf::Draw& draw, const std::stop_token& stop);
-    void find(const leaf::Find& find, const std::stop_token& stop);
+    void find(const leaf::Find& find, bool coarse, base::Workers& workers, const std::stop_token& stop);
     void sketch(leaf::Job job, const leaf::Share& share, int level, volume::VoxelSource& source,
                 const std::stop_token& stop);
     base::Result<Source> open(leaf::Job job, const leaf::Share& share, const std::stop_token& stop);

@@ -101,6 +101,30 @@ TEST(Merge, OfSomeIsClearElsewhere) {
     }
 }
 
+// A finer grid's cells are told what the coarser ones that they lie in are.
+TEST(FunctionTable, IsTheSameOverAFinerGrid) {
+    FunctionTable table{.blocks = {{0, 0, 0}, {2, 1, 1}}, .side = 4, .codes = {}};
+    for (int code = 0; code < 16; ++code) {
+        table.codes.push_back(static_cast<std::uint8_t>(code));
+    }
+    const FunctionTable fine = finer(table, 3);
+    const DirectionGrid coarse_grid(4), fine_grid(12);
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> slope(-1, 1);
+    std::vector<int> in_coarse, in_fine;
+    for (int line = 0; line < 200; ++line) {
+        const double u = slope(random), v = slope(random);
+        coarse_grid.cells_of(line % 3, {{u, u}, {v, v}}, in_coarse);
+        fine_grid.cells_of(line % 3, {{u, u}, {v, v}}, in_fine);
+        if (in_coarse.size() == 1) {
+            for (const int cell : in_fine) {
+                EXPECT_EQ(fine.codes.at(static_cast<std::size_t>(cell) * 2),
+                          table.codes.at(static_cast<std::size_t>(in_coarse[0]) * 2));
+            }
+        }
+    }
+}
+
 TEST(Family, RatesOfPinsApartAddUp) {
     const std::vector<Member> members =
         members_of({.opacity_pins = {view::Hat{0.2, 0, 0.2, 0.5}, view::Hat{0.5, 0, 0.3, 0.5},
