@@ -28,7 +28,7 @@ bool Functions::need(wire::LinkId client, const view::TransferFunction& tf, cull
     Need& need = needs_[client];
     if (need.bases != bases || need.kind != kind) {
         need = {std::move(bases), kind, {}};
-        news_ = true;
+        news_ = fresh_ = true;
     }
     bool any = false;
     for (const FunctionKey& key : keys) {
@@ -37,7 +37,7 @@ bool Functions::need(wire::LinkId client, const view::TransferFunction& tf, cull
         any = any || of.any;
         if (std::ranges::find(need.numbers, of.number) == need.numbers.end()) {
             need.numbers.push_back(of.number);
-            news_ = true;
+            news_ = fresh_ = true;
         }
     }
     while (entries_.size() > most_keys) {
@@ -47,13 +47,15 @@ bool Functions::need(wire::LinkId client, const view::TransferFunction& tf, cull
         }
         dropped_.push_back(oldest->key);
         entries_.erase(oldest);
-        news_ = true;
+        news_ = fresh_ = true;
     }
     return any;
 }
 
 void Functions::forget(wire::LinkId client) {
-    news_ = needs_.erase(client) > 0 || news_;
+    if (needs_.erase(client) > 0) {
+        news_ = fresh_ = true;
+    }
 }
 
 Functions::Entry& Functions::entry(const FunctionKey& key) {
@@ -85,6 +87,12 @@ std::optional<wire::Message> Functions::take_wanted(wire::Time now) {
         ++renewal_;
         news_ = true;
         heard_ = now;
+    }
+    if (std::exchange(fresh_, false)) {
+        changed_ = now;
+    }
+    if (now - changed_ < rest) {
+        return std::nullopt;
     }
     if (!std::exchange(news_, false)) {
         return std::nullopt;

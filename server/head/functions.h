@@ -18,6 +18,9 @@ class Functions {
     static constexpr std::size_t most_keys = 24;
     // Before what renderers do not send is asked for once more.
     static constexpr std::chrono::seconds patience{120};
+    // A pin that is being dragged changes its shape all the time: nothing is asked for until it has rested so
+    // long.
+    static constexpr std::chrono::milliseconds rest{150};
 
     // Of the places of so many renderers.
     explicit Functions(std::size_t renderers) : renderers_(renderers) {}
@@ -27,7 +30,7 @@ class Functions {
     bool need(wire::LinkId client, const view::TransferFunction& tf, culling::Kind kind, int level);
     void forget(wire::LinkId client);
 
-    // What renderers are to be told, if that has changed since this was last asked.
+    // What renderers are to be told, if that has changed since this last gave it, and has rested.
     std::optional<wire::Message> take_wanted(wire::Time now);
     // What is not kept any longer since this was last asked.
     std::vector<culling::FunctionKey> take_dropped() { return std::exchange(dropped_, {}); }
@@ -58,8 +61,9 @@ class Functions {
     std::map<wire::LinkId, Need> needs_;
     std::vector<culling::FunctionKey> dropped_;
     std::uint64_t last_number_ = 0, clock_ = 0, renewal_ = 1;
-    bool news_ = false;
-    wire::Time heard_{};
+    bool news_ = false;   // to be told
+    bool fresh_ = false;  // since take_wanted() was last asked
+    wire::Time changed_{}, heard_{};
 };
 
 }  // namespace shearwater::head
