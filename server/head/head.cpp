@@ -11,16 +11,8 @@ namespace pb = wire::pb;
 using namespace std::chrono_literals;
 using Counted = node::Branch::Counted;
 
-namespace {
-
-std::size_t renderers_of(const tree::Plan& plan) {
-    return plan.renderers_below(0).size();
-}
-
-}  // namespace
-
 Head::Head(Roster roster, Limits limits)
-    : roster_(std::move(roster)), limits_(limits), functions_(renderers_of(roster_.plan())) {
+    : roster_(std::move(roster)), limits_(limits), functions_(roster_.plan().renderers_below(0).size()) {
     std::vector<node::Branch::ChildSpec> children;
     for (const tree::Place child : roster_.plan().at(0).children) {
         const volume::Box& box = roster_.plan().at(child).box;
