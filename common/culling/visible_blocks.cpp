@@ -4,7 +4,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace shearwater::culling {
@@ -41,12 +40,13 @@ struct Side {
 class FacePass {
   public:
     FacePass(const Factorisation& factorisation, const Face& face, const BlockGrid& grid,
-             const BlockRates& rates, const Settings& settings, BlockSet& visible)
+             const BlockRates& rates, const Settings& settings, BlockSet& visible, base::Workers& workers)
         : f_(factorisation),
           face_(face),
           grid_(grid),
           kind_(settings.kind),
           depth_(-std::log1p(-settings.threshold)),
+          rate_(rates.rate),
           visible_(visible) {
         for (std::size_t a = 0; a < 3; ++a) {
             // Cells across the cube's end, of whichever size, are left out.
@@ -57,23 +57,7 @@ class FacePass {
         u_ = sides(face.u_axis(), face.origin.x, face.pitch.x, face.width, pixels);
         v_ = sides(face.v_axis(), face.origin.y, face.pitch.y, face.height, pixels);
         lay_slabs();
-        // All functions that will be needed, before several threads do.
-        std::vector<int> cells;
-        Slopes last;
-        for (const Side& v : v_) {
-            for (const Side& u : u_) {
-                if (beams_.empty() || !(last.u == u.slope && last.v == v.slope)) {
-                    last = {u.slope, v.slope};
-                    rates.directions.cells_of(face.axis, last, cells);
-                    first_of_.push_back(rates_.size());
-                    for (const int cell : cells) {
-                        rates_.push_back(rates.of(cell).data());
-                    }
-                }
-                beams_.push_back(first_of_.size() - 1);
-            }
-        }
-        first_of_.push_back(rates_.size());
+        find_functions(rates, workers);
     }
 
     std::int64_t rows() const { return static_cast<std::int64_t>(v_.size()); }
@@ -134,6 +118,35 @@ class FacePass {
         }
     }
 
+    // All that will be needed, before several threads do.
+    void find_functions(const BlockRates& rates, base::Workers& workers) {
+        std::vector<int> cells, some;
+        Slopes last;
+        for (const Side& v : v_) {
+            for (const Side& u : u_) {
+                if (beams_.empty() || !(last.u == u.slope && last.v == v.slope)) {
+                    last = {u.slope, v.slope};
+                    rates.directions.cells_of(face_.axis, last, some);
+                    first_of_.push_back(cells.size());
+                    cells.insert(cells.end(), some.begin(), some.end());
+                }
+                beams_.push_back(first_of_.size() - 1);
+            }
+        }
+        first_of_.push_back(cells.size());
+        std::vector<int> each = cells;
+        std::sort(each.begin(), each.end());
+        each.erase(std::unique(each.begin(), each.end()), each.end());
+        const std::vector<BlockRates::Codes> codes = rates.of(each, workers);
+        std::vector<const std::uint8_t*> by_cell(static_cast<std::size_t>(rates.directions.cells()));
+        for (std::size_t n = 0; n < each.size(); ++n) {
+            by_cell[static_cast<std::size_t>(each[n])] = codes[n].data();
+        }
+        for (const int cell : cells) {
+            codes_.push_back(by_cell[static_cast<std::size_t>(cell)]);
+        }
+    }
+
     // Where the beam is on the planes from w0 to w1.
     static Interval between(const Side& side, double w0, double w1) {
         const auto [lo, hi] =
@@ -162,7 +175,7 @@ class FacePass {
                    va = static_cast<std::size_t>(face_.v_axis());
         const std::int64_t count_u = grid_.counts()[ua], count_v = grid_.counts()[va];
         const Index3 strides{1, grid_.counts()[0], grid_.counts()[0] * grid_.counts()[1]};
-        const auto rates = std::span(rates_).subspan(first_of_[beam], first_of_[beam + 1] - first_of_[beam]);
+        const auto codes = std::span(codes_).subspan(first_of_[beam], first_of_[beam + 1] - first_of_[beam]);
         const double step = shortest_step(u, v);
         double left = depth_;
         for (const Slab& slab : slabs_) {
@@ -193,8 +206,8 @@ class FacePass {
                 continue;
             }
             const Run run_u = run(by_u), run_v = run(by_v);
-            float least = std::numeric_limits<float>::max();
-            for (const float* const of : rates) {
+            std::uint8_t least = 255;
+            for (const std::uint8_t* const of : codes) {
                 for (std::int64_t bv = run_v.first; bv <= run_v.last; ++bv) {
                     for (std::int64_t bu = run_u.first; bu <= run_u.last; ++bu) {
                         least = std::min(least, of[slab_first + bv * strides[va] + bu * strides[ua]]);
@@ -202,7 +215,7 @@ class FacePass {
                 }
             }
             const int parts = 1 + (run_u.first < run_u.last ? 1 : 0) + (run_v.first < run_v.last ? 1 : 0);
-            left -= depth_of(static_cast<double>(least) * step, slab.thickness, parts);
+            left -= depth_of(static_cast<double>(rate_[least]) * step, slab.thickness, parts);
             if (left <= 0) {
                 return;
             }
@@ -230,13 +243,14 @@ class FacePass {
     const BlockGrid& grid_;
     Kind kind_;
     double depth_;  // that hides what is behind
+    const std::array<float, 256>& rate_;
     BlockSet& visible_;
     std::array<double, 3> ends_;  // of what functions are of, in voxels
     std::vector<Side> u_, v_;
     std::vector<Slab> slabs_;
-    std::vector<const float*> rates_;    // of the directions of some beams, one after the other
-    std::vector<std::size_t> first_of_;  // of those
-    std::vector<std::size_t> beams_;     // which of them each beam has
+    std::vector<const std::uint8_t*> codes_;  // of the directions of some beams, one after the other
+    std::vector<std::size_t> first_of_;       // of those
+    std::vector<std::size_t> beams_;          // which of them each beam has
 };
 
 }  // namespace
@@ -245,7 +259,7 @@ BlockSet visible_blocks(const Factorisation& factorisation, const BlockGrid& gri
                         const Settings& settings, base::Workers& workers) {
     BlockSet visible(grid.size());
     for (const Face& face : factorisation.faces) {
-        FacePass pass(factorisation, face, grid, rates, settings, visible);
+        FacePass pass(factorisation, face, grid, rates, settings, visible, workers);
         workers.for_each(pass.rows(), [&](std::int64_t row) { pass.pass_row(row); });
     }
     return visible;

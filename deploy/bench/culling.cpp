@@ -70,7 +70,8 @@ std::uint64_t count_of_both(const culling::BlockSet& a, const culling::BlockSet&
 namespace {
 
 const std::vector<std::string>& table_names() {
-    static const std::vector<std::string> names{"views", "functions", "frames", "family", "pass", "pass-many"};
+    static const std::vector<std::string> names{"views",  "functions", "frames",
+                                                "family", "pass",      "pass-many"};
     return names;
 }
 
@@ -156,8 +157,7 @@ base::Result<bool> culling(const Flags& flags) {
     }
     if (flags.check == 0 && flags.shows("pass-many")) {
         base::Workers workers(flags.common.threads);
-        const auto done =
-            culling_pass_of_many(*view, flags.threshold, flags.common.frames, workers, *report);
+        const auto done = culling_pass_of_many(*view, flags.threshold, flags.common.frames, workers, *report);
         if (!done) {
             return done.error();
         }

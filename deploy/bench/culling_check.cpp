@@ -21,8 +21,8 @@ struct Found {
 bool culling_check(const CullingRun& run, int pictures) {
     // Half a level at the default threshold, and what rounding adds.
     const double bound = std::max(1.0 / 255, 1 - run.threshold);
-    run.report.table("check", "Pictures at random with culling and without: " + run.drawn.name + ", " +
-                                  run.view.size);
+    run.report.table("check",
+                     "Pictures at random with culling and without: " + run.drawn.name + ", " + run.view.size);
     std::array<Found, culling_kinds.size()> found;
     std::optional<int> worst;
     double greatest = 0;

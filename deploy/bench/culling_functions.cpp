@@ -34,8 +34,7 @@ void culling_functions(const CullingRun& run) {
                                           run.cube.lattice().spacing, run.cube.workers());
                 const double seconds = clock.lap();
                 Record record = run.record();
-                record
-                    .text("functions", footprint == culling::Footprint::column ? "opof" : "pof, linear", 11)
+                record.text("functions", footprint == culling::Footprint::column ? "opof" : "pof, linear", 11)
                     .text("from", from.name, 7)
                     .count("side", static_cast<std::uint64_t>(side))
                     .count("directions", static_cast<std::uint64_t>(directions.cells()))
@@ -44,8 +43,8 @@ void culling_functions(const CullingRun& run) {
                     .number("paper_ms_a_block",
                             side == 36 ? std::optional(paper::function_processor_ms) : std::nullopt, 0)
                     .number("bytes_a_block", static_cast<double>(table.codes.size()) / blocks, 0)
-                    .number("paper_bytes",
-                            side == 36 ? std::optional(paper::function_bytes) : std::nullopt, 0)
+                    .number("paper_bytes", side == 36 ? std::optional(paper::function_bytes) : std::nullopt,
+                            0)
                     .number("MB", static_cast<double>(table.codes.size()) / 1e6, 2);
                 run.report.add(record);
                 bar.show(++done / 12);

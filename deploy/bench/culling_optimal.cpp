@@ -102,8 +102,9 @@ class Sequential {
         for (const image::Window& window :
              shear::render(volume_, classification_, f_, workers_, nullptr, {}, &here)) {
             for (int y = 0; y < window.rect.height(); ++y) {
-                const auto front = opacity_.row(window.rect.y0 + y).subspan(
-                    static_cast<std::size_t>(window.rect.x0), static_cast<std::size_t>(window.rect.width()));
+                const auto front = opacity_.row(window.rect.y0 + y)
+                                       .subspan(static_cast<std::size_t>(window.rect.x0),
+                                                static_cast<std::size_t>(window.rect.width()));
                 const auto back = window.pixels.row(y);
                 for (std::size_t x = 0; x < front.size(); ++x) {
                     front[x] += (1 - front[x]) * back[x].a;

@@ -18,8 +18,7 @@ struct PassTimes {
     double visible = 0;  // blocks, on average
 };
 
-// `factorise` gives a view's factorisation, so many steps along the path; `edit` lets its transfer function
-// count as new; `pass` is measured.
+// `factorise` gives a view's factorisation, so many steps along the path; `pass` is measured.
 PassTimes times_of(int frames, const std::function<view::Factorisation(int)>& factorise,
                    const std::function<culling::BlockSet(const view::Factorisation&)>& pass) {
     PassTimes times;
@@ -57,8 +56,7 @@ constexpr std::int64_t many_edge = 2048;
 
 culling::FunctionTable made_up(const culling::BlockGrid& grid, const culling::DirectionGrid& directions,
                                int codes) {
-    culling::FunctionTable table{
-        .blocks = {{}, grid.counts()}, .side = directions.side(), .codes = {}};
+    culling::FunctionTable table{.blocks = {{}, grid.counts()}, .side = directions.side(), .codes = {}};
     table.codes.resize(grid.size() * static_cast<std::size_t>(directions.cells()));
     std::mt19937 random(1);
     for (std::uint8_t& code : table.codes) {
@@ -96,20 +94,26 @@ base::Status culling_pass_of_many(const deploy::ViewOptions& view, double thresh
     if (auto fits = check_memory("decide what is visible of " + cube_text(lattice.n), 3 * bytes); !fits) {
         return fits;
     }
-    const view::TransferFunction tf{
-        .opacity_pins = {view::Flat{.height = 1}}, .colour_pins = {{0, {1, 1, 1}}}, .background = {}};
+    // Of two bases, both made up as one.
+    const view::TransferFunction one{
+        .opacity_pins = {view::Hat{0.25, 0, 0.5, 1}}, .colour_pins = {{0, {1, 1, 1}}}, .background = {}};
+    view::TransferFunction two = one;
+    two.opacity_pins.push_back(view::Hat{0.75, 0, 0.5, 1});
     report.table("pass-many", "Deciding what is visible, opof: " + cube_text(lattice.n) + ", " +
                                   std::to_string(grid.size()) + " blocks with codes at random");
     struct Codes {
         const char* name;
         int count;
+        const view::TransferFunction& tf;
     };
     // As dense as they come, and so thin that every ray goes through.
-    for (const Codes codes : {Codes{"dense", 256}, Codes{"thin", 64}}) {
+    for (const Codes& codes : {Codes{"dense", 256, one}, Codes{"thin", 64, one}, Codes{"of two", 64, two}}) {
         culling::FunctionStore store(grid, directions);
-        store.put({culling::Footprint::column, culling::members_of(tf)[0].basis,
-                   *culling::rung_below(1), 0},
-                  std::make_shared<culling::FunctionTable>(made_up(grid, directions, codes.count)));
+        const auto table = std::make_shared<culling::FunctionTable>(made_up(grid, directions, codes.count));
+        for (const culling::Member& member : culling::members_of(codes.tf)) {
+            store.put({culling::Footprint::column, member.basis, *culling::rung_below(member.height), 0},
+                      table);
+        }
         for (const bool parallel : {false, true}) {
             deploy::ViewOptions seen = first_view(many_edge);
             seen.size = view.size;
@@ -125,9 +129,9 @@ base::Status culling_pass_of_many(const deploy::ViewOptions& view, double thresh
                                            turned.sampling());
                 },
                 [&](const view::Factorisation& f) {
-                    return culling::visible_blocks(
-                        f, grid, store.rates(tf, culling::Footprint::column, 0),
-                        {culling::Kind::opof, threshold}, workers);
+                    return culling::visible_blocks(f, grid,
+                                                   store.rates(codes.tf, culling::Footprint::column, 0),
+                                                   {culling::Kind::opof, threshold}, workers);
                 });
             Record record;
             record.text("codes", codes.name)

@@ -43,8 +43,7 @@ Visible visible_of(const CullingRun& run, culling::Culler& culler, const view::F
     visible.opaque = opaque.count();
     visible.optimal = optimal.count();
     for (std::size_t k = 0; k < culling_kinds.size(); ++k) {
-        const auto blocks =
-            culler.visible(f, run.drawn.tf, run.settings(culling_kinds[k]), workers).blocks;
+        const auto blocks = culler.visible(f, run.drawn.tf, run.settings(culling_kinds[k]), workers).blocks;
         visible.kinds[k] = count_of_both(blocks, opaque);
         visible.missed += visible.optimal - count_of_both(blocks, optimal);
         visible.in_order = visible.in_order && (k == 0 || visible.kinds[k - 1] <= visible.kinds[k]);
@@ -110,8 +109,10 @@ void culling_views(const CullingRun& run) {
         bar.show(static_cast<double>(n + 1) / views);
     }
     run.report.add(row(run, "mean", all, views));
-    run.report.note(std::to_string(all.opaque / views) + " blocks are not empty. opof culls at least what opof-linear does, "
-                    "and that at least what pof does, in every view: " + (all.in_order ? "yes" : "no") + ".");
+    run.report.note(std::to_string(all.opaque / views) +
+                    " blocks are not empty. opof culls at least what opof-linear does, "
+                    "and that at least what pof does, in every view: " +
+                    (all.in_order ? "yes" : "no") + ".");
 }
 
 }  // namespace shearwater::bench
