@@ -8,7 +8,7 @@ namespace {
 
 // One hat over low values and one over high ones.
 view::TransferFunction of_heights(double low, double high) {
-    return {.opacity_pins = {view::Hat{.centre = 0.3, .top = 0.2, .base = 0.4, .height = low},
+    return {.opacity_pins = {view::Hat{.centre = 0.2, .top = 0.4, .base = 0.6, .height = low},
                              view::Hat{.centre = 0.75, .top = 0.4, .base = 0.5, .height = high}},
             .colour_pins = {{0, {1, 0.8, 0.6}}, {1, {1, 1, 1}}},
             .background = {}};

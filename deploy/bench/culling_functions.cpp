@@ -1,3 +1,5 @@
+#include <ctime>
+
 #include "common/culling/family.h"
 #include "deploy/bench/culling.h"
 #include "deploy/bench/paper.h"
@@ -29,17 +31,19 @@ void culling_functions(const CullingRun& run) {
                 const culling::DirectionGrid directions(side);
                 const culling::FunctionKey key{footprint, members[0].basis, *rung, 0};
                 Clock clock;
+                const std::clock_t before = std::clock();
                 const culling::FunctionTable table =
                     culling::functions_of(run.cube.bricks(), key, grid, directions, from.octants,
                                           run.cube.lattice().spacing, run.cube.workers());
                 const double seconds = clock.lap();
+                const double processor_seconds = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
                 Record record = run.record();
                 record.text("functions", footprint == culling::Footprint::column ? "opof" : "pof, linear", 11)
                     .text("from", from.name, 7)
                     .count("side", static_cast<std::uint64_t>(side))
                     .count("directions", static_cast<std::uint64_t>(directions.cells()))
                     .number("seconds", seconds, 3)
-                    .number("processor_ms_a_block", 1e3 * seconds * run.cube.threads() / blocks, 3)
+                    .number("processor_ms_a_block", 1e3 * processor_seconds / blocks, 3)
                     .number("paper_ms_a_block",
                             side == 36 ? std::optional(paper::function_processor_ms) : std::nullopt, 0)
                     .number("bytes_a_block", static_cast<double>(table.codes.size()) / blocks, 0)
