@@ -43,6 +43,10 @@ void CullingOptions::add_to(CLI::App& app, const std::string& group) {
             CLI::IsMember(std::vector<std::string>(culling::kind_names.begin(), culling::kind_names.end())))
         ->capture_default_str()
         ->group(group);
+    add_culling_threshold(app, threshold, group);
+}
+
+void add_culling_threshold(CLI::App& app, double& threshold, const std::string& group) {
     app.add_option("--culling-threshold", threshold,
                    "opacity that hides what is behind; the default changes no picture by a level of 255")
         ->check(CLI::Range(0.5, 0.999999))

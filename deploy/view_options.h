@@ -20,6 +20,9 @@ void add_classify(CLI::App& app, std::string& classify, const std::string& group
 // --lod on|off.
 void add_lod(CLI::App& app, std::string& lod, const std::string& group = "Options");
 
+// --culling-threshold.
+void add_culling_threshold(CLI::App& app, double& threshold, const std::string& group = "Options");
+
 // --culling off|pof|opof-linear|opof, --culling-threshold.
 struct CullingOptions {
     std::string kind = "off";

@@ -1,12 +1,56 @@
 #include "common/culling/function_store.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "common/base/check.h"
 #include "common/culling/rates.h"
 
 namespace shearwater::culling {
+
+namespace {
+
+std::array<float, 256> rates_times(double factor) {
+    std::array<float, 256> rates{};
+    for (int code = 0; code < 256; ++code) {
+        rates[static_cast<std::size_t>(code)] = static_cast<float>(rate_of(code) * factor);
+    }
+    return rates;
+}
+
+// The greatest code of a rate that is no more, for many. Rates alike in their leading bits, fewer than codes
+// are apart, begin at one code and go on to the next at most.
+class CodesBelow {
+  public:
+    explicit CodesBelow(const std::array<float, 256>& rates) : rates_(rates) {
+        for (std::uint32_t n = 0; n < first_.size(); ++n) {
+            const float rate = std::bit_cast<float>((n + least) << dropped);
+            const auto above = std::upper_bound(rates_.begin(), rates_.end(), rate);
+            first_[n] = static_cast<std::uint8_t>(above - rates_.begin() - 1);
+        }
+    }
+
+    std::uint8_t operator()(float rate) const {
+        const std::uint32_t bits = std::bit_cast<std::uint32_t>(rate) >> dropped;
+        if (bits < least) {
+            return 0;
+        }
+        std::uint8_t code = first_[std::min<std::size_t>(bits - least, first_.size() - 1)];
+        while (code < most_code && rates_[code + 1U] <= rate) {
+            ++code;
+        }
+        return code;
+    }
+
+  private:
+    static constexpr int dropped = 23 - 5;
+    static constexpr std::uint32_t least = (127 - 13) << 5;  // 2^-13, below all codes
+    std::array<float, 256> rates_;
+    std::array<std::uint8_t, 13 * 32> first_{};  // up to 1
+};
+
+}  // namespace
 
 FunctionStore::FunctionStore(const BlockGrid& grid, const DirectionGrid& directions)
     : grid_(grid), directions_(directions) {}
@@ -48,10 +92,7 @@ BlockRates FunctionStore::rates(const view::TransferFunction& tf, Footprint foot
                 if (const auto table = find({footprint, member.basis, rung, level})) {
                     Scaled& of = scaled.emplace_back();
                     of.table = table.get();
-                    for (int code = 0; code < 256; ++code) {
-                        of.rate[static_cast<std::size_t>(code)] =
-                            static_cast<float>(rate_of(code) * member.height);
-                    }
+                    of.rate = rates_times(member.height);
                     members.push_back(member);
                     break;
                 }
@@ -60,25 +101,49 @@ BlockRates FunctionStore::rates(const view::TransferFunction& tf, Footprint foot
         combined_ = std::make_unique<Combined>(
             Combined{tf, footprint, level, std::move(scaled), Combination(members), {}});
     }
-    return {directions_, [this](int cell) { return combine(cell); }};
+    const auto& scaled = combined_->scaled;
+    return {directions_,
+            [this](std::span<const int> cells, base::Workers& workers) { return codes_of(cells, workers); },
+            scaled.size() == 1 ? scaled[0].rate : rates_times(1)};
 }
 
-std::span<const float> FunctionStore::combine(int cell) {
-    std::vector<float>& of = combined_->of[cell];
-    if (!of.empty()) {
-        return of;
+std::vector<BlockRates::Codes> FunctionStore::codes_of(std::span<const int> cells, base::Workers& workers) {
+    std::vector<BlockRates::Codes> codes;
+    if (combined_->scaled.size() == 1) {
+        for (const int cell : cells) {
+            codes.push_back(BlockRates::Codes(combined_->scaled[0].table->codes)
+                                .subspan(static_cast<std::size_t>(cell) * grid_.size(), grid_.size()));
+        }
+        return codes;
     }
-    of.resize(grid_.size());
+    std::vector<std::pair<int, std::vector<std::uint8_t>*>> missing;
+    for (const int cell : cells) {
+        std::vector<std::uint8_t>& of = combined_->of[cell];
+        if (of.empty()) {
+            of.resize(grid_.size());
+            missing.emplace_back(cell, &of);
+        }
+        codes.emplace_back(of);
+    }
+    workers.for_each(static_cast<std::int64_t>(missing.size()), [&](std::int64_t n) {
+        const auto& [cell, of] = missing[static_cast<std::size_t>(n)];
+        combine(cell, *of);
+    });
+    return codes;
+}
+
+void FunctionStore::combine(int cell, std::span<std::uint8_t> codes) const {
     const std::size_t first = static_cast<std::size_t>(cell) * grid_.size();
+    const CodesBelow codes_below(rates_times(1));
+    Combination combination = combined_->combination;
     std::vector<float> rates(combined_->scaled.size());
-    for (std::size_t block = 0; block < of.size(); ++block) {
+    for (std::size_t block = 0; block < codes.size(); ++block) {
         for (std::size_t n = 0; n < rates.size(); ++n) {
             const Scaled& scaled = combined_->scaled[n];
             rates[n] = scaled.rate[scaled.table->codes[first + block]];
         }
-        of[block] = rates.size() == 1 ? rates[0] : combined_->combination(rates);
+        codes[block] = codes_below(combination(rates));
     }
-    return of;
 }
 
 }  // namespace shearwater::culling

@@ -55,11 +55,12 @@ class FunctionStore {
         int level;
         std::vector<Scaled> scaled;
         Combination combination;
-        std::map<int, std::vector<float>> of;  // by direction cell
+        std::map<int, std::vector<std::uint8_t>> of;  // by direction cell, unless there is but one table
     };
 
     std::shared_ptr<const FunctionTable> find(const FunctionKey& key) const;
-    std::span<const float> combine(int cell);
+    std::vector<BlockRates::Codes> codes_of(std::span<const int> cells, base::Workers& workers);
+    void combine(int cell, std::span<std::uint8_t> codes) const;
 
     BlockGrid grid_;
     DirectionGrid directions_;

@@ -4,7 +4,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace shearwater::culling {
@@ -30,7 +29,13 @@ struct Slab {
 
 // Blocks along an axis, [first, last].
 struct Run {
-    std::int64_t first, last;
+    std::int32_t first, last;
+    bool empty() const { return last < first; }
+};
+// What a beam crosses of a slab along u or v.
+struct Crossing {
+    Run met;  // of the grid
+    Run by;   // whose functions count, if any do
 };
 
 // Along u or v: where a beam's rays are, at + slope * w.
@@ -41,12 +46,13 @@ struct Side {
 class FacePass {
   public:
     FacePass(const Factorisation& factorisation, const Face& face, const BlockGrid& grid,
-             const BlockRates& rates, const Settings& settings, BlockSet& visible)
+             const BlockRates& rates, const Settings& settings, BlockSet& visible, base::Workers& workers)
         : f_(factorisation),
           face_(face),
           grid_(grid),
           kind_(settings.kind),
           depth_(-std::log1p(-settings.threshold)),
+          rate_(rates.rate),
           visible_(visible),
           step_(std::max(factorisation.slice_pitch(), 1.0)) {
         for (std::size_t a = 0; a < 3; ++a) {
@@ -58,23 +64,9 @@ class FacePass {
         u_ = sides(face.u_axis(), face.origin.x, face.pitch.x, face.width, pixels);
         v_ = sides(face.v_axis(), face.origin.y, face.pitch.y, face.height, pixels);
         lay_slabs();
-        // All functions that will be needed, before several threads do.
-        std::vector<int> cells;
-        Slopes last;
-        for (const Side& v : v_) {
-            for (const Side& u : u_) {
-                if (beams_.empty() || !(last.u == u.slope && last.v == v.slope)) {
-                    last = {u.slope, v.slope};
-                    rates.directions.cells_of(face.axis, last, cells);
-                    first_of_.push_back(rates_.size());
-                    for (const int cell : cells) {
-                        rates_.push_back(rates.of(cell).data());
-                    }
-                }
-                beams_.push_back(first_of_.size() - 1);
-            }
-        }
-        first_of_.push_back(rates_.size());
+        u_crossings_ = crossings(u_, face.u_axis());
+        v_crossings_ = crossings(v_, face.v_axis());
+        find_functions(rates, workers);
     }
 
     std::int64_t rows() const { return static_cast<std::int64_t>(v_.size()); }
@@ -82,7 +74,7 @@ class FacePass {
     void pass_row(std::int64_t row) {
         const auto j = static_cast<std::size_t>(row);
         for (std::size_t i = 0; i < u_.size(); ++i) {
-            pass(u_[i], v_[j], beams_[j * u_.size() + i]);
+            pass(i, j);
         }
     }
 
@@ -135,6 +127,54 @@ class FacePass {
         }
     }
 
+    // All that will be needed, before several threads do.
+    void find_functions(const BlockRates& rates, base::Workers& workers) {
+        // Of a row's beams, one after the other, and where each one's begin.
+        struct Row {
+            std::vector<int> cells;
+            std::vector<std::size_t> first_of;
+        };
+        std::vector<Row> rows_of_cells(v_.size());
+        workers.for_each(rows(), [&](std::int64_t n) {
+            const Side& v = v_[static_cast<std::size_t>(n)];
+            Row& row = rows_of_cells[static_cast<std::size_t>(n)];
+            std::vector<int> some;
+            for (const Side& u : u_) {
+                if (row.first_of.empty() || perspective()) {
+                    rates.directions.cells_of(face_.axis, {u.slope, v.slope}, some);
+                }
+                row.first_of.push_back(row.cells.size());
+                row.cells.insert(row.cells.end(), some.begin(), some.end());
+            }
+        });
+        std::vector<std::uint8_t> needed(static_cast<std::size_t>(rates.directions.cells()));
+        for (const Row& row : rows_of_cells) {
+            for (const int cell : row.cells) {
+                needed[static_cast<std::size_t>(cell)] = 1;
+            }
+        }
+        std::vector<int> each;
+        for (std::size_t cell = 0; cell < needed.size(); ++cell) {
+            if (needed[cell] != 0) {
+                each.push_back(static_cast<int>(cell));
+            }
+        }
+        const std::vector<BlockRates::Codes> codes = rates.of(each, workers);
+        std::vector<const std::uint8_t*> by_cell(needed.size());
+        for (std::size_t n = 0; n < each.size(); ++n) {
+            by_cell[static_cast<std::size_t>(each[n])] = codes[n].data();
+        }
+        for (const Row& row : rows_of_cells) {
+            for (const std::size_t first : row.first_of) {
+                first_of_.push_back(codes_.size() + first);
+            }
+            for (const int cell : row.cells) {
+                codes_.push_back(by_cell[static_cast<std::size_t>(cell)]);
+            }
+        }
+        first_of_.push_back(codes_.size());
+    }
+
     // Where the beam is on the planes from w0 to w1.
     static Interval between(const Side& side, double w0, double w1) {
         const auto [lo, hi] =
@@ -142,9 +182,36 @@ class FacePass {
         return {side.at.lo + lo - slack, side.at.hi + hi + slack};
     }
     Run run(const Interval& interval) const {
-        const auto edge = static_cast<double>(grid_.edge());
-        return {static_cast<std::int64_t>(std::floor(interval.lo / edge)),
-                static_cast<std::int64_t>(std::floor(interval.hi / edge))};
+        const auto block_at = [&](double at) {
+            constexpr double far = 1e9;  // beyond every grid
+            return static_cast<std::int32_t>(
+                std::clamp(std::floor(at / static_cast<double>(grid_.edge())), -far, far));
+        };
+        return {block_at(interval.lo), block_at(interval.hi)};
+    }
+
+    // Of each of some sides, of each slab.
+    std::vector<Crossing> crossings(const std::vector<Side>& sides, int axis) const {
+        const auto a = static_cast<std::size_t>(axis);
+        const auto last = static_cast<std::int32_t>(grid_.counts()[a] - 1);
+        std::vector<Crossing> crossings;
+        for (const Side& side : sides) {
+            for (const Slab& slab : slabs_) {
+                const double near = slab.near - origin(), far = slab.far - origin();
+                const double middle = slab.middle - origin();
+                const Interval all = between(side, near, far);
+                const Interval by = kind_ == Kind::opof ? between(side, middle, middle) : all;
+                // No function is of lines that come in or go out by the cube's sides, nor by how much a ray's
+                // first or last sample in it is less than a step.
+                const Interval on = between(side, near - face_.sign * step_, far + face_.sign * step_);
+                const bool inside =
+                    slab.thickness > 0 && std::min(on.lo, by.lo) >= 0 && std::max(on.hi, by.hi) < ends_[a];
+                const Run met = run(all);
+                crossings.push_back(
+                    {{std::max(met.first, 0), std::min(met.last, last)}, inside ? run(by) : Run{0, -1}});
+            }
+        }
+        return crossings;
     }
 
     // World length of the beam's shortest ray from plane to plane of voxels, in the smallest distance of two.
@@ -157,56 +224,44 @@ class FacePass {
                std::min({spacing.x, spacing.y, spacing.z});
     }
 
-    void pass(const Side& u, const Side& v, std::size_t beam) {
-        const auto wa = static_cast<std::size_t>(face_.axis);
-        const auto ua = static_cast<std::size_t>(face_.u_axis()),
-                   va = static_cast<std::size_t>(face_.v_axis());
-        const std::int64_t count_u = grid_.counts()[ua], count_v = grid_.counts()[va];
+    void pass(std::size_t i, std::size_t j) {
         const Index3 strides{1, grid_.counts()[0], grid_.counts()[0] * grid_.counts()[1]};
-        const auto rates = std::span(rates_).subspan(first_of_[beam], first_of_[beam + 1] - first_of_[beam]);
-        const double step = shortest_step(u, v);
+        const std::int64_t along = strides[static_cast<std::size_t>(face_.axis)];
+        const std::int64_t across_u = strides[static_cast<std::size_t>(face_.u_axis())];
+        const std::int64_t across_v = strides[static_cast<std::size_t>(face_.v_axis())];
+        const std::size_t beam = j * u_.size() + i;
+        const auto codes = std::span(codes_).subspan(first_of_[beam], first_of_[beam + 1] - first_of_[beam]);
+        const double step = shortest_step(u_[i], v_[j]);
         double left = depth_;
-        for (const Slab& slab : slabs_) {
-            const double near = slab.near - origin(), far = slab.far - origin();
-            const Run met_u = run(between(u, near, far)), met_v = run(between(v, near, far));
-            const Run in_u{std::max<std::int64_t>(met_u.first, 0), std::min(met_u.last, count_u - 1)};
-            const Run in_v{std::max<std::int64_t>(met_v.first, 0), std::min(met_v.last, count_v - 1)};
-            if (in_u.first > in_u.last || in_v.first > in_v.last) {
+        for (std::size_t n = 0; n < slabs_.size(); ++n) {
+            const auto& [met_u, by_u] = u_crossings_[i * slabs_.size() + n];
+            const auto& [met_v, by_v] = v_crossings_[j * slabs_.size() + n];
+            if (met_u.empty() || met_v.empty()) {
                 continue;
             }
-            const std::int64_t slab_first = slab.block * strides[wa];
-            for (std::int64_t bv = in_v.first; bv <= in_v.last; ++bv) {
-                for (std::int64_t bu = in_u.first; bu <= in_u.last; ++bu) {
-                    const auto block =
-                        static_cast<std::size_t>(slab_first + bv * strides[va] + bu * strides[ua]);
+            const std::int64_t slab_first = slabs_[n].block * along;
+            for (std::int64_t v = met_v.first; v <= met_v.last; ++v) {
+                for (std::int64_t u = met_u.first; u <= met_u.last; ++u) {
+                    const auto block = static_cast<std::size_t>(slab_first + v * across_v + u * across_u);
                     std::atomic_ref(visible_.bytes()[block]).store(1, std::memory_order_relaxed);
                 }
             }
-            if (slab.thickness == 0) {
+            if (by_u.empty() || by_v.empty()) {
                 continue;
             }
-            // No function is of lines that come in or go out by the cube's sides, nor by how much a ray's
-            // first or last sample in it is less than a step.
-            const double before = near - face_.sign * step_, behind = far + face_.sign * step_;
-            const Interval on_u = between(u, before, behind), on_v = between(v, before, behind);
-            if (on_u.lo < 0 || on_u.hi >= ends_[ua] || on_v.lo < 0 || on_v.hi >= ends_[va]) {
-                continue;
-            }
-            const double middle = slab.middle - origin();
-            const bool half_way = kind_ == Kind::opof;
-            const Interval by_u = half_way ? between(u, middle, middle) : between(u, near, far);
-            const Interval by_v = half_way ? between(v, middle, middle) : between(v, near, far);
-            const Run run_u = run(by_u), run_v = run(by_v);
-            float least = std::numeric_limits<float>::max();
-            for (const float* const of : rates) {
-                for (std::int64_t bv = run_v.first; bv <= run_v.last; ++bv) {
-                    for (std::int64_t bu = run_u.first; bu <= run_u.last; ++bu) {
-                        least = std::min(least, of[slab_first + bv * strides[va] + bu * strides[ua]]);
+            std::uint8_t least = 255;
+            for (const std::uint8_t* const of : codes) {
+                for (std::int64_t v = by_v.first; v <= by_v.last; ++v) {
+                    for (std::int64_t u = by_u.first; u <= by_u.last; ++u) {
+                        least = std::min(least, of[slab_first + v * across_v + u * across_u]);
                     }
                 }
             }
-            const int parts = 1 + (run_u.first < run_u.last ? 1 : 0) + (run_v.first < run_v.last ? 1 : 0);
-            left -= depth_of(static_cast<double>(least) * step, slab.thickness, parts);
+            if (least == 0) {
+                continue;
+            }
+            const int parts = 1 + (by_u.first < by_u.last ? 1 : 0) + (by_v.first < by_v.last ? 1 : 0);
+            left -= depth_of(static_cast<double>(rate_[least]) * step, slabs_[n].thickness, parts);
             if (left <= 0) {
                 return;
             }
@@ -234,14 +289,15 @@ class FacePass {
     const BlockGrid& grid_;
     Kind kind_;
     double depth_;  // that hides what is behind
+    const std::array<float, 256>& rate_;
     BlockSet& visible_;
     double step_;                 // at most from slice to slice, in voxels
     std::array<double, 3> ends_;  // of what functions are of, in voxels
     std::vector<Side> u_, v_;
     std::vector<Slab> slabs_;
-    std::vector<const float*> rates_;    // of the directions of some beams, one after the other
-    std::vector<std::size_t> first_of_;  // of those
-    std::vector<std::size_t> beams_;     // which of them each beam has
+    std::vector<Crossing> u_crossings_, v_crossings_;  // of a side's slabs, one side after the other
+    std::vector<const std::uint8_t*> codes_;           // of each beam's directions, one beam after the other
+    std::vector<std::size_t> first_of_;                // of each beam
 };
 
 }  // namespace
@@ -250,7 +306,7 @@ BlockSet visible_blocks(const Factorisation& factorisation, const BlockGrid& gri
                         const Settings& settings, base::Workers& workers) {
     BlockSet visible(grid.size());
     for (const Face& face : factorisation.faces) {
-        FacePass pass(factorisation, face, grid, rates, settings, visible);
+        FacePass pass(factorisation, face, grid, rates, settings, visible, workers);
         workers.for_each(pass.rows(), [&](std::int64_t row) { pass.pass_row(row); });
     }
     return visible;

@@ -13,8 +13,11 @@
 // So every ray of a beam has at least the depth counted when it comes to a block that is not visible, and
 // what is left out lies behind that depth, on every ray.
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "common/base/workers.h"
 #include "common/culling/block_grid.h"
@@ -25,10 +28,14 @@
 namespace shearwater::culling {
 
 struct BlockRates {
+    // A code for each of the grid's blocks.
+    using Codes = std::span<const std::uint8_t>;
+
     DirectionGrid directions;
-    // Of all the grid's blocks, in optical depth along the smallest distance of two voxels; for lines of one
-    // of the directions' cells. Asked for from one thread; what it gives lasts as long as this.
-    std::function<std::span<const float>(int cell)> of;
+    // Of lines of each of some of the directions' cells. What this gives lasts as long as it does.
+    std::function<std::vector<Codes>(std::span<const int> cells, base::Workers& workers)> of;
+    // Of a code, rising with it: optical depth along the smallest distance of two voxels.
+    std::array<float, 256> rate;
 };
 
 // The rates are of the functions that the settings' kind goes by, which is not off.

@@ -20,6 +20,8 @@ Run add_bench(CLI::App& app) {
         {"load", "from a file in the page cache to bricks, by stage", bench::add_load},
         {"codecs", "what is done to pixels between kernel and window", bench::add_codecs},
         {"large", "a cube that no file holds: the paper's run of 2048^3 voxels", bench::add_large},
+        {"culling", "what leaving out hidden blocks saves: the papers' figures on visibility",
+         bench::add_culling},
     };
     app.require_subcommand(0, 1);
     auto runs = std::make_shared<std::vector<std::pair<CLI::App*, Run>>>();

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 
+#include "deploy/bench/cases.h"
 #include "deploy/bench/in_process.h"
 #include "deploy/bench/options.h"
 #include "deploy/bench/report.h"
 #include "deploy/bench/subcommands.h"
-#include "deploy/bench/workload.h"
 #include "deploy/progress_bar.h"
 
 namespace shearwater::bench {
@@ -15,39 +15,10 @@ namespace {
 
 struct Flags {
     Options common;
-    options::CubeOptions cube;
-    std::vector<std::string> workloads{"W1"};
-    std::int64_t edge = 256;
-    std::string tf_file;
+    CaseOptions drawn{.workloads = {"W1"}};
     bool parallel = false;
     bool axes = false;
 };
-
-struct Case {
-    std::string name;
-    options::CubeOptions cube;
-    view::TransferFunction tf;
-};
-
-base::Result<std::vector<Case>> cases_of(const Flags& flags) {
-    std::vector<Case> cases;
-    if (flags.cube.path.empty()) {
-        for (const std::string& name : flags.workloads) {
-            const Workload made = workload(name);
-            cases.push_back({name, made.cube(flags.edge), made.tf});
-            cases.back().cube.bits = flags.cube.bits;
-        }
-        return cases;
-    }
-    deploy::ViewOptions view;
-    view.tf_file = flags.tf_file;
-    const auto tf = view.transfer_function();
-    if (!tf) {
-        return tf.error();
-    }
-    cases.push_back({flags.cube.path, flags.cube, *tf});
-    return cases;
-}
 
 Record row(const Flags& flags, const Case& drawn, const InProcess& cube, const std::string& view,
            const std::vector<FrameTimes>& frames) {
@@ -139,13 +110,13 @@ base::Status draw(const Flags& flags, const Case& drawn, Report& report) {
 }
 
 base::Status frame(const Flags& flags) {
-    if (auto valid = flags.cube.validate(); !valid) {
+    if (auto valid = flags.drawn.cube.validate(); !valid) {
         return valid;
     }
-    if (const auto view = flags.common.view(flags.edge); !view) {
+    if (const auto view = flags.common.view(flags.drawn.edge); !view) {
         return view.error();
     }
-    const auto cases = cases_of(flags);
+    const auto cases = flags.drawn.cases();
     if (!cases) {
         return cases.error();
     }
@@ -165,14 +136,7 @@ base::Status frame(const Flags& flags) {
 
 Run add_frame(CLI::App& app) {
     auto flags = std::make_shared<Flags>();
-    auto* const cube = app.add_option("cube", flags->cube.path, "a FITS file to draw instead of a workload");
-    app.add_option("--workload", flags->workloads, "what is drawn; several with commas between")
-        ->delimiter(',')
-        ->check(CLI::IsMember(workload_names()))
-        ->excludes(cube)
-        ->capture_default_str();
-    add_size(app, flags->edge);
-    app.add_option("--tf", flags->tf_file, "the FITS file's transfer function, a TOML file")->needs(cube);
+    flags->drawn.add_to(app);
     app.add_flag("--parallel", flags->parallel, "parallel projection");
     app.add_flag("--axes", flags->axes, "the first view alone, along each of the cube's axes");
     flags->common.add_frames(app);
@@ -182,7 +146,6 @@ Run add_frame(CLI::App& app) {
     flags->common.add_lod(app);
     flags->common.add_threads(app);
     flags->common.add_json(app);
-    flags->cube.add_to(app);
     return [flags] { return status_of("frame", frame(*flags)); };
 }
 

@@ -1,5 +1,7 @@
 #include "deploy/bench/in_process.h"
 
+#include <optional>
+
 #include "common/cube/open.h"
 #include "common/image/rle.h"
 #include "common/image/warp.h"
@@ -54,6 +56,7 @@ FrameSummary summary(const std::vector<FrameTimes>& frames) {
     all.samples /= static_cast<double>(frames.size());
     all.total = spread(std::move(totals));
     all.factorise = median_of(frames, &FrameTimes::factorise);
+    all.cull = median_of(frames, &FrameTimes::cull);
     all.render = median_of(frames, &FrameTimes::render);
     all.warp = median_of(frames, &FrameTimes::warp);
     all.encode = median_of(frames, &FrameTimes::encode);
@@ -87,14 +90,23 @@ base::Result<InProcess> InProcess::load(const options::CubeOptions& options, int
 }
 
 FrameTimes InProcess::draw(const view::Camera& camera, const view::ImageSize& size,
-                           const view::Sampling& sampling, const view::TransferFunction& tf) {
+                           const view::Sampling& sampling, const view::TransferFunction& tf,
+                           const Culling* culling) {
     FrameTimes times;
     Clock clock;
     const auto factorisation = view::factorise(camera, size, lattice_, sampling);
     times.factorise = clock.lap();
+    std::optional<culling::VisibleBlocks> visible;
+    if (culling != nullptr) {
+        culling->culler.prepare(tf, culling->settings.kind, factorisation.level(), *workers_);
+        clock.lap();
+        visible = culling->culler.visible(factorisation, tf, culling->settings, *workers_);
+        times.cull = clock.lap();
+    }
     shear::RenderStats stats;
     const auto& classification = classifier_.classify(bricks_, tf, factorisation.classify, *workers_);
-    const auto windows = shear::render(bricks_, classification, factorisation, *workers_, &stats);
+    const auto windows = shear::render(bricks_, classification, factorisation, *workers_, &stats, {},
+                                       visible ? &*visible : nullptr);
     times.render = clock.lap();
     const auto picture = image::warp(factorisation, windows, camera, size, tf.background, *workers_);
     times.warp = clock.lap();

@@ -12,26 +12,33 @@
 #include "common/volume/source.h"
 #include "deploy/bench/timing.h"
 #include "deploy/view_options.h"
+#include "renderer/culling/culler.h"
 #include "renderer/shear/brick_volume.h"
 #include "renderer/shear/classification.h"
 
 namespace shearwater::bench {
 
 struct FrameTimes {
-    double factorise = 0, render = 0, warp = 0, encode = 0;  // seconds
+    double factorise = 0, cull = 0, render = 0, warp = 0, encode = 0;  // seconds
     std::uint64_t samples = 0;
     int level = 0;  // of detail
-    double total() const { return factorise + render + warp + encode; }
+    double total() const { return factorise + cull + render + warp + encode; }
 };
 
 // Medians over frames, and the whole frames' spread.
 struct FrameSummary {
     Spread total;
-    double factorise = 0, render = 0, warp = 0, encode = 0;
+    double factorise = 0, cull = 0, render = 0, warp = 0, encode = 0;
     double samples = 0;             // a frame, on average
     double samples_per_second = 0;  // of rendering
 };
 FrameSummary summary(const std::vector<FrameTimes>& frames);
+
+// What leaves out hidden blocks, of the cube that is drawn.
+struct Culling {
+    culling::Culler& culler;
+    culling::Settings settings;
+};
 
 class InProcess {
   public:
@@ -44,8 +51,9 @@ class InProcess {
     base::Workers& workers() const { return *workers_; }
     const shear::BrickVolume& bricks() const { return bricks_; }
 
+    // Opacity functions that are missing are computed first, and not counted.
     FrameTimes draw(const view::Camera& camera, const view::ImageSize& size, const view::Sampling& sampling,
-                    const view::TransferFunction& tf);
+                    const view::TransferFunction& tf, const Culling* culling = nullptr);
     // One frame unmeasured, then `frames` along the path that `view` begins.
     base::Result<std::vector<FrameTimes>> draw_path(deploy::ViewOptions view, int frames,
                                                     const view::TransferFunction& tf,

@@ -83,6 +83,12 @@ std::ostream& Report::lines() {
     return json_ == "-" ? std::cout : file_;
 }
 
+void Report::table(const std::string& name, const std::string& title) {
+    table_ = name;
+    widths_.clear();
+    note("\n" + title);
+}
+
 void Report::add(const Record& record) {
     if (json_ != "-") {
         show(record);
@@ -90,6 +96,9 @@ void Report::add(const Record& record) {
     if (!json_.empty()) {
         deploy::JsonObject line(lines());
         line.add("bench", deploy::quoted(benchmark_));
+        if (!table_.empty()) {
+            line.add("table", deploy::quoted(table_));
+        }
         for (const Record::Field& field : record.fields()) {
             line.add(field.key, field.json);
         }

@@ -42,7 +42,9 @@ class Report {
     // Begins with the machine.
     static base::Result<Report> open(const std::string& benchmark, const std::string& json);
 
-    // Records have the same fields, so that they are columns.
+    // Begins a table, one of several: its lines of JSON say which.
+    void table(const std::string& name, const std::string& title);
+    // A table's records have the same fields, so that they are columns.
     void add(const Record& record);
     // A sentence below the table.
     void note(const std::string& sentence);
@@ -54,6 +56,7 @@ class Report {
     void show(const Record& record);
 
     std::string benchmark_;
+    std::string table_;
     std::string json_;
     std::ofstream file_;
     std::vector<std::size_t> widths_;  // of the table's columns, once there is a row

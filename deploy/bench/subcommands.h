@@ -14,5 +14,6 @@ Run add_stages(CLI::App& app);
 Run add_load(CLI::App& app);
 Run add_codecs(CLI::App& app);
 Run add_large(CLI::App& app);
+Run add_culling(CLI::App& app);
 
 }  // namespace shearwater::bench

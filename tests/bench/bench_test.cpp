@@ -217,6 +217,98 @@ TEST(Bench, LargeNeedsNoFile) {
     EXPECT_TRUE(has_no(lines[0], "paper_s"));
 }
 
+std::map<std::string, std::vector<Line>> by_table(const std::vector<Line>& lines) {
+    std::map<std::string, std::vector<Line>> tables;
+    for (const Line& line : lines) {
+        tables[text(line, "table")].push_back(line);
+    }
+    return tables;
+}
+
+// Noise that is dense enough to hide what is behind it.
+class CullingBench : public testing::Test {
+  protected:
+    CullingBench() {
+        EXPECT_TRUE(samples::write_sample("noise-sources", {66, 66, 98}, 3, cube_));
+        std::ofstream(tf_) << "[[opacity]]\nkind = \"ramp\"\nx0 = 0.3\na0 = 0.4\nx1 = 1\na1 = 0.9\n";
+    }
+    std::string arguments() const { return cube_ + " --range 0 255 --tf " + tf_ + " --image 96x80 "; }
+
+  private:
+    support::TemporaryFolder scratch_;
+    std::string cube_ = scratch_.path("cube.fits"), tf_ = scratch_.path("fog.toml");
+};
+
+TEST_F(CullingBench, CountsTheBlocksThatEachWayLeaves) {
+    for (const std::string view : {"", "--parallel "}) {
+        const auto tables = by_table(rows("culling", arguments() + view + "--tables views --block 16"));
+        const std::vector<Line>& lines = tables.at("views");
+        ASSERT_EQ(lines.size(), 19U);
+        for (const Line& line : lines) {
+            const double opaque = number(line, "non_empty"), optimal = number(line, "optimal"),
+                         opof = number(line, "opof");
+            EXPECT_EQ(number(line, "blocks"), 5 * 5 * 7);
+            EXPECT_LE(opaque, number(line, "blocks"));
+            EXPECT_GT(optimal, opaque / 5);
+            EXPECT_LE(optimal, opof);
+            EXPECT_LE(optimal, number(line, "linear"));
+            EXPECT_LE(number(line, "linear"), number(line, "pof"));
+            EXPECT_LE(number(line, "pof"), opaque);
+            EXPECT_EQ(text(line, "in_order") == "yes" || text(line, "azimuth") == "mean",
+                      opof <= number(line, "linear") || text(line, "azimuth") == "mean");
+            EXPECT_NEAR(number(line, "opof_%"), 100 - 100 * opof / opaque, 1e-6);
+            EXPECT_TRUE(has_no(line, "by_rays"));
+            EXPECT_EQ(number(line, "missed"), 0);
+        }
+        EXPECT_EQ(text(lines[1], "azimuth"), "30");
+        EXPECT_EQ(text(lines[18], "azimuth"), "mean");
+        EXPECT_LT(number(lines[18], "opof"), 0.95 * number(lines[18], "non_empty"));
+        EXPECT_LT(number(lines[18], "optimal"), number(lines[18], "opof"));
+    }
+}
+
+TEST_F(CullingBench, FunctionsFramesFamiliesAndPasses) {
+    const auto tables =
+        by_table(rows("culling", arguments() + "--tables functions,frames,family,pass --frames 2"));
+    ASSERT_EQ(tables.size(), 4U);
+    ASSERT_EQ(tables.at("functions").size(), 12U);
+    for (const Line& line : tables.at("functions")) {
+        const double side = number(line, "side");
+        EXPECT_EQ(number(line, "bytes_a_block"), side * side / 2);
+        EXPECT_GT(number(line, "seconds"), 0);
+        EXPECT_EQ(has_no(line, "paper_bytes"), side != 36);
+    }
+    ASSERT_EQ(tables.at("frames").size(), 4U);
+    EXPECT_EQ(text(tables.at("frames")[0], "culling"), "off");
+    for (const Line& line : tables.at("frames")) {
+        expect_times(line);
+        EXPECT_EQ(number(line, "cull_s") > 0, text(line, "culling") != "off");
+        EXPECT_LE(number(line, "samples"), number(tables.at("frames")[0], "samples"));
+    }
+    ASSERT_EQ(tables.at("family").size(), 3U);
+    for (const Line& line : tables.at("family")) {
+        EXPECT_GT(number(line, "computed"), 0);
+        EXPECT_EQ(number(line, "again"), 0);
+        EXPECT_EQ(number(line, "visible") + number(line, "culled"), number(line, "non_empty"));
+    }
+    ASSERT_EQ(tables.at("pass").size(), 3U);
+    for (const Line& line : tables.at("pass")) {
+        expect_times(line, 1e-3, "ms");
+        EXPECT_GT(number(line, "first_ms"), 0);
+    }
+}
+
+TEST_F(CullingBench, ChecksPicturesAtRandom) {
+    const auto lines = rows("culling", arguments() + "--check 3 --culling-threshold 0.9");
+    ASSERT_EQ(lines.size(), 3U);
+    for (const Line& line : lines) {
+        EXPECT_EQ(number(line, "pictures"), 1);
+        EXPECT_NEAR(number(line, "bound"), 0.1, 1e-9);
+        EXPECT_LE(number(line, "greatest_difference"), 0.1);
+        EXPECT_EQ(number(line, "over"), 0);
+    }
+}
+
 TEST(Bench, TheTableAndTheLinesSayTheSame) {
     const support::TemporaryFolder scratch;
     const std::string json = scratch.path("lines.json");
@@ -255,13 +347,19 @@ TEST(Bench, MistakesGetOneLine) {
     expect_mistake("bench load --folder /nowhere", "nowhere");
     expect_mistake("bench load --bits 9", "bits");
     expect_mistake("bench codecs --seconds -1", "seconds");
+    expect_mistake("bench culling --block 8", "block");
+    expect_mistake("bench culling --tables views,pears", "pears");
+    expect_mistake("bench culling --check 0", "check");
+    expect_mistake("bench culling --culling-threshold 1", "threshold");
+    expect_mistake("bench culling --tf some.toml", "cube");
+    expect_mistake("bench culling /nowhere.fits", "nowhere");
     expect_mistake("bench large --synthetic 1000000", "memory");
     expect_mistake("bench large --colour 3", "colour");
 }
 
 TEST(Bench, HelpEndsWithZero) {
     for (const std::string benchmark :
-         {"", "frame", "trees", "images", "stages", "load", "codecs", "large"}) {
+         {"", "frame", "trees", "images", "stages", "load", "codecs", "large", "culling"}) {
         const Outcome outcome = run("bench " + benchmark + " --help");
         EXPECT_EQ(outcome.status, 0);
         EXPECT_NE(outcome.out.find("--help"), std::string::npos);

@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "common/culling/function_store.h"
 #include "common/culling/rates.h"
 #include "renderer/culling/culler.h"
 #include "tests/culling/block.h"
@@ -135,6 +136,45 @@ TEST(Family, RatesOfPinsApartAddUp) {
     EXPECT_FLOAT_EQ(combination(std::vector{1.0F, 2.0F, 2.5F, 0.1F}), 3.0F);
     EXPECT_FLOAT_EQ(combination(std::vector{1.0F, 2.0F, 3.5F, 0.1F}), 3.5F);
     EXPECT_FLOAT_EQ(combination(std::vector{1.0F, 2.0F, 3.5F, 9.0F}), 9.0F);
+}
+
+// What several bases combine to is kept as the greatest codes below it.
+TEST(Family, CombinedCodesAreTheGreatestBelow) {
+    const view::TransferFunction tf{.opacity_pins = {view::Hat{0.2, 0, 0.2, 0.9}, view::Hat{0.5, 0, 0.3, 0.4},
+                                                     view::Hat{0.3, 0, 0.3, 0.01}},
+                                    .colour_pins = {{0, {1, 1, 1}}},
+                                    .background = {}};
+    const BlockGrid grid({161, 161, 161});
+    const DirectionGrid directions(4);
+    FunctionStore store(grid, directions);
+    std::mt19937 random(5);
+    std::vector<std::shared_ptr<FunctionTable>> tables;
+    const std::vector<Member> members = members_of(tf);
+    for (const Member& member : members) {
+        tables.push_back(std::make_shared<FunctionTable>(FunctionTable{{{}, grid.counts()}, 4, {}}));
+        for (std::size_t entry = 0; entry < grid.size() * 8; ++entry) {
+            tables.back()->codes.push_back(static_cast<std::uint8_t>(random()));
+        }
+        store.put({Footprint::column, member.basis, rung_below(member.height).value(), 0}, tables.back());
+    }
+    base::Workers workers(2);
+    const BlockRates rates = store.rates(tf, Footprint::column, 0);
+    const std::vector cells{6, 1};
+    const auto codes = rates.of(cells, workers);
+    const Combination combination(members);
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        for (std::size_t block = 0; block < grid.size(); ++block) {
+            std::vector<float> each;
+            for (std::size_t m = 0; m < members.size(); ++m) {
+                const int code = tables[m]->codes[static_cast<std::size_t>(cells[c]) * grid.size() + block];
+                each.push_back(static_cast<float>(rate_of(code) * members[m].height));
+            }
+            const float rate = combination(each);
+            const std::size_t code = codes[c][block];
+            EXPECT_LE(rates.rate[code], rate);
+            EXPECT_TRUE(code == 255 || rates.rate[code + 1] > rate) << code;
+        }
+    }
 }
 
 // The bound, at every value and for every height: rungs below a height, and sums of pins apart below the

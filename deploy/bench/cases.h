@@ -1,0 +1,30 @@
+#pragma once
+// What a benchmark in one process draws: workloads, or a FITS file.
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "common/base/result.h"
+#include "common/options/cube_options.h"
+#include "common/view/transfer_function.h"
+
+namespace shearwater::bench {
+
+struct Case {
+    std::string name;
+    options::CubeOptions cube;
+    view::TransferFunction tf;
+};
+
+struct CaseOptions {
+    options::CubeOptions cube{};
+    std::vector<std::string> workloads;  // if there is no file
+    std::int64_t edge = 256;
+    std::string tf_file{};
+
+    void add_to(CLI::App& app);
+    base::Result<std::vector<Case>> cases() const;
+};
+
+}  // namespace shearwater::bench
