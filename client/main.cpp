@@ -53,8 +53,9 @@ void declare(CLI::App& app, Options& options) {
         ->check(
             CLI::IsMember(std::vector<std::string>(culling::kind_names.begin(), culling::kind_names.end())))
         ->capture_default_str();
-    app.add_option("--culling-threshold", options.culling_threshold,
-                   "Opacity that hides what is behind; the default changes no picture by a level of 255")
+    app.add_option(
+           "--culling-threshold", options.culling_threshold,
+           "Opacity that hides what is behind; the default changes no picture by more than a level of 255")
         ->check(CLI::Range(0.5, 0.999999));
     app.add_option("--size", options.size, "The window's size")->check(check_size)->capture_default_str();
     app.add_option("--scale", options.window.scale, "Pixels per nominal pixel; else as the display says")

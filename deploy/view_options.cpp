@@ -47,8 +47,9 @@ void CullingOptions::add_to(CLI::App& app, const std::string& group) {
 }
 
 void add_culling_threshold(CLI::App& app, double& threshold, const std::string& group) {
-    app.add_option("--culling-threshold", threshold,
-                   "opacity that hides what is behind; the default changes no picture by a level of 255")
+    app.add_option(
+           "--culling-threshold", threshold,
+           "opacity that hides what is behind; the default changes no picture by more than a level of 255")
         ->check(CLI::Range(0.5, 0.999999))
         ->group(group);
 }
