@@ -5,11 +5,11 @@
 // blocks across the face's principal axis. What it meets of a slab is visible as long as it has light left;
 // then it has gathered at least what its directions' functions (rates.h) say of blocks that it passes:
 //
-//     eye >===  slab 0  |  slab 1  |     opof: rate * thickness, of blocks that it is in half-way through the
-//     slab;
-//              [a][b]   |[a][b][c] |     the others: of any that it meets there
+//     eye >===  slab 0  |  slab 1  |
+//              [a][b]   |[a][b][c] |
 //
-// all the least of several, along the shortest of its rays.
+// of opof, rate times thickness, of the blocks that it is in half-way through the slab; of the others, of any
+// that it meets there; all the least of several, along the shortest of its rays.
 // So every ray of a beam has at least the depth counted when it comes to a block that is not visible, and
 // what is left out lies behind that depth, on every ray.
 

@@ -41,8 +41,8 @@ int first_certain_of(const Layers& cells, const Sheaf& sheaf, const std::int16_t
     const std::ptrdiff_t plane = std::ptrdiff_t{room.length} * rows;
     std::fill(room.excess, room.excess + static_cast<std::ptrdiff_t>(count) * plane, std::int16_t{0});
     for (int k = 0; k < sheaf.layers; ++k) {
-        const Sheaf::Cells& u = sheaf.u[static_cast<std::size_t>(k)];
-        const Sheaf::Cells& v = sheaf.v[static_cast<std::size_t>(k)];
+        const Reach& u = sheaf.u[static_cast<std::size_t>(k)];
+        const Reach& v = sheaf.v[static_cast<std::size_t>(k)];
         for (int y = 0; y < cells.counts_v; ++y) {
             const std::int16_t* const from =
                 &cells.units[static_cast<std::size_t>((k * cells.counts_v + y) * cells.counts_u)];

@@ -61,8 +61,6 @@ std::uint16_t least_depth(const ColumnCells& cells, const ColumnSheaf& sheaf) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include <cmath>
-
 #include "common/base/check.h"
 
 namespace shearwater::culling {
@@ -72,14 +70,10 @@ HWY_EXPORT(least_depth);
 ColumnSheaf::ColumnSheaf(const Slopes& slopes, int first, int count, double middle, double sampled)
     : first_layer(first), layers(count) {
     base::check(0 < count && count <= max_layers, "a block has 1 to 32 layers");
-    const auto reach = [sampled](const Interval& slope, double near) {
-        const double far = near + sampled;
-        const auto [lo, hi] = std::minmax({slope.lo * near, slope.lo * far, slope.hi * near, slope.hi * far});
-        return Reach{static_cast<int>(std::floor(lo)), static_cast<int>(std::ceil(hi))};
-    };
     for (int layer = 0; layer < count; ++layer) {
-        u[static_cast<std::size_t>(layer)] = reach(slopes.u, first + layer - middle);
-        v[static_cast<std::size_t>(layer)] = reach(slopes.v, first + layer - middle);
+        const double near = first + layer - middle;
+        u[static_cast<std::size_t>(layer)] = reach_of(slopes.u, near, near + sampled);
+        v[static_cast<std::size_t>(layer)] = reach_of(slopes.v, near, near + sampled);
     }
 }
 

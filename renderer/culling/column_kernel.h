@@ -7,13 +7,9 @@
 #include <cstdint>
 
 #include "common/culling/direction_grid.h"
+#include "renderer/culling/reach.h"
 
 namespace shearwater::culling {
-
-// How far from where it is half-way, in cells, a bundle's lines lie in a layer (sheaf.h).
-struct Reach {
-    int first, last;
-};
 
 // The layers between a block's planes along an axis, the first of them, and those of them that are there.
 struct ColumnSheaf {

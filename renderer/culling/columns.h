@@ -2,13 +2,17 @@
 // Opacity functions of columns: what every line of a direction's cell gathers between the two planes that
 // bound a block along the line's principal axis w, if it passes through the block half-way.
 //
-//      block a | block b | block c          In a block itself a line that clips a corner may meet nothing,
-//      and
-//    ----------+----/----+---------- w+32   the smallest ratio of depth to thickness (OPOF 4) of a block that
-//              |   /     |                  is not opaque to its very corners is none. Between the planes all
-//              |  * b's  |       half-way   lines of a direction have the same thickness, and those that pass
-//              a | /       |                  block only at a corner count where they are half-way.
-//    ----------+/--------+---------- w
+//     a  |    b    |  c
+//    ----+-------/-+---- w + 32
+//        |      /  |
+//        |     *   |      half-way
+//        |    /    |
+//    ----+---/-----+---- w
+//
+// In a block itself a line that clips a corner may meet nothing, and the smallest ratio of depth to thickness
+// (OPOF 4) of a block that is not opaque to its very corners is none. Between the planes all lines of a
+// direction have the same thickness, and those that pass a block only at a corner count where they are
+// half-way.
 //
 // What of a line lies outside the sub-volume and its halo counts as clear. Only lines are looked at that stay
 // in the cube from plane to plane, and pass half-way through the sub-volume's own cells.

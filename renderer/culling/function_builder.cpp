@@ -48,7 +48,6 @@ std::uint8_t FunctionBuilder::greatest_certain(const Layers& layers, const Sheaf
                 units[count++] = units_of(code);
             }
         }
-        ++searches_;
         const int found = certifier_.first_certain(layers, sheaf, std::span(units).first(count));
         if (found < 0) {
             uncertain = tried[count - 1];

@@ -28,9 +28,6 @@ class FunctionBuilder {
     // The codes (rates.h) of all cells of the grid.
     void build(const BlockCells& cells, std::span<std::uint8_t> codes);
 
-    // How often bundles were searched, over all blocks.
-    std::int64_t searches() const { return searches_; }
-
   private:
     using Sheaves = std::vector<std::optional<Sheaf>>;  // of each direction and axis
 
@@ -40,7 +37,6 @@ class FunctionBuilder {
     DirectionGrid grid_;
     std::map<std::array<int, 3>, Sheaves> sheaves_;
     Certifier certifier_;
-    std::int64_t searches_ = 0;
 };
 
 // Of all blocks that a sub-volume has a part of. Empty if stopped before.

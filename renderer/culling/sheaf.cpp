@@ -1,27 +1,23 @@
 #include "renderer/culling/sheaf.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace shearwater::culling {
 
 namespace {
 
-void spread(const Interval& slopes, int layers, std::array<Sheaf::Cells, BlockCells::max_edge>& cells) {
+void spread(const Interval& slopes, int layers, std::array<Reach, BlockCells::max_edge>& cells) {
     for (int layer = 0; layer < layers; ++layer) {
         // From the middle to the layer's first plane, and half-way to the next.
         const double near = layer - layers / 2.0, far = near + 0.5;
-        const auto [lo, hi] =
-            std::minmax({slopes.lo * near, slopes.lo * far, slopes.hi * near, slopes.hi * far});
-        cells[static_cast<std::size_t>(layer)] = {static_cast<int>(std::floor(lo)),
-                                                  static_cast<int>(std::ceil(hi))};
+        cells[static_cast<std::size_t>(layer)] = reach_of(slopes, near, far);
     }
 }
 
-Sheaf::Cells bundles_of(const std::array<Sheaf::Cells, BlockCells::max_edge>& cells, int layers, int count) {
-    Sheaf::Cells bundles{0, count - 1};
+Reach bundles_of(const std::array<Reach, BlockCells::max_edge>& cells, int layers, int count) {
+    Reach bundles{0, count - 1};
     for (int layer = 0; layer < layers; ++layer) {
-        const Sheaf::Cells& at = cells[static_cast<std::size_t>(layer)];
+        const Reach& at = cells[static_cast<std::size_t>(layer)];
         bundles.first = std::min(bundles.first, -at.last);
         bundles.last = std::max(bundles.last, count - 1 - at.first);
     }
@@ -66,8 +62,8 @@ int first_certain_by_definition(const Layers& cells, const Sheaf& sheaf,
             for (int i = sheaf.bundles_u.first; i <= sheaf.bundles_u.last; ++i) {
                 int excess = 0;
                 for (int k = 0; k < sheaf.layers; ++k) {
-                    const Sheaf::Cells& u = sheaf.u[static_cast<std::size_t>(k)];
-                    const Sheaf::Cells& v = sheaf.v[static_cast<std::size_t>(k)];
+                    const Reach& u = sheaf.u[static_cast<std::size_t>(k)];
+                    const Reach& v = sheaf.v[static_cast<std::size_t>(k)];
                     const int u0 = std::max(i + u.first, 0), u1 = std::min(i + u.last, cells.counts_u - 1);
                     const int v0 = std::max(j + v.first, 0), v1 = std::min(j + v.last, cells.counts_v - 1);
                     if (u0 > u1 || v0 > v1) {

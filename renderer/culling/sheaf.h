@@ -15,18 +15,15 @@
 
 #include "common/culling/direction_grid.h"
 #include "renderer/culling/block_cells.h"
+#include "renderer/culling/reach.h"
 
 namespace shearwater::culling {
 
 struct Sheaf {
-    struct Cells {
-        int first, last;
-    };
-
     int axis = 2;    // w; u = (axis + 1) % 3, v = (axis + 2) % 3
     int layers = 0;  // counts[axis]
-    std::array<Cells, BlockCells::max_edge> u{}, v{};
-    Cells bundles_u{}, bundles_v{};  // of those that meet the block
+    std::array<Reach, BlockCells::max_edge> u{}, v{};
+    Reach bundles_u{}, bundles_v{};  // of those that meet the block
 
     // Samples lie on the first plane of a layer or half-way to the next.
     Sheaf(int along, const Slopes& slopes, const std::array<int, 3>& counts);
