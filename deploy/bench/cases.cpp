@@ -2,8 +2,14 @@
 
 #include "deploy/bench/options.h"
 #include "deploy/bench/workload.h"
+#include "deploy/progress_bar.h"
 
 namespace shearwater::bench {
+
+base::Result<InProcess> load(const Case& drawn, int threads) {
+    deploy::ProgressBar bar("loading " + drawn.name);
+    return InProcess::load(drawn.cube, threads, [&](double share) { bar.show(share); });
+}
 
 void CaseOptions::add_to(CLI::App& app) {
     auto* const file = app.add_option("cube", cube.path, "a FITS file to draw instead of a workload");

@@ -8,6 +8,7 @@
 #include "common/base/result.h"
 #include "common/options/cube_options.h"
 #include "common/view/transfer_function.h"
+#include "deploy/bench/in_process.h"
 
 namespace shearwater::bench {
 
@@ -16,6 +17,9 @@ struct Case {
     options::CubeOptions cube;
     view::TransferFunction tf;
 };
+
+// Its cube, with a bar on the terminal.
+base::Result<InProcess> load(const Case& drawn, int threads);
 
 struct CaseOptions {
     options::CubeOptions cube{};

@@ -8,7 +8,6 @@
 #include "deploy/bench/options.h"
 #include "deploy/bench/subcommands.h"
 #include "deploy/bench/workload.h"
-#include "deploy/progress_bar.h"
 
 namespace shearwater::bench {
 
@@ -89,10 +88,7 @@ struct Flags {
 
 // Whether no picture differed that was checked.
 base::Result<bool> measure(const Flags& flags, const Case& drawn, Report& report) {
-    auto cube = [&] {
-        deploy::ProgressBar bar("loading " + drawn.name);
-        return InProcess::load(drawn.cube, flags.common.threads, [&](double share) { bar.show(share); });
-    }();
+    auto cube = load(drawn, flags.common.threads);
     if (!cube) {
         return cube.error();
     }

@@ -84,10 +84,7 @@ base::Status draw_axes(const Flags& flags, const Case& drawn, InProcess& cube,
 }
 
 base::Status draw(const Flags& flags, const Case& drawn, Report& report) {
-    auto cube = [&] {
-        deploy::ProgressBar bar("loading " + drawn.name);
-        return InProcess::load(drawn.cube, flags.common.threads, [&](double share) { bar.show(share); });
-    }();
+    auto cube = load(drawn, flags.common.threads);
     if (!cube) {
         return cube.error();
     }
