@@ -17,7 +17,7 @@ using namespace shearwater;
 constexpr int unusable = 2;
 
 struct Options {
-    std::string connect, secret_file, tf_file, screenshot;
+    std::string connect, secret_file, tf_file, screenshot, controls;
     std::string size = "1280x800";
     std::string classify = "post";
     std::string lod;
@@ -64,6 +64,8 @@ void declare(CLI::App& app, Options& options) {
                    "Frames a second to hold while the view moves, by lesser quality where need be")
         ->check(CLI::Range(model::Effort::min_rate, model::Effort::max_rate))
         ->capture_default_str();
+    app.add_option("--controls", options.controls,
+                   "Keep in this file where each control is, for scripts: NAME X Y WIDTH HEIGHT");
     app.add_option("--screenshot", options.screenshot,
                    "Write the window to this PNG file once the first whole picture is seen, and end");
 }
@@ -113,6 +115,7 @@ base::Status run(Options options) {
                          culling::kind_names.begin()),
                      options.culling_threshold},
          .effort = options.effort,
+         .controls = options.controls,
          .screenshot = options.screenshot});
     return app.run();
 }
