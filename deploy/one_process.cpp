@@ -52,8 +52,7 @@ base::Result<volume::Mapping> mapping_for(cube::Cube& opened, const options::Cub
 }  // namespace
 
 base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const ViewOptions& view,
-                                      const view::TransferFunction& tf, int threads, int repeat,
-                                      const volume::Progress& progress) {
+                                      const Script& script, int threads, const volume::Progress& progress) {
     base::Workers workers(threads);
     Clock clock;
     auto opened = cube::open(cube.path, cube.open_options());
@@ -65,17 +64,19 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     }
     const view::Lattice lattice{.n = opened->info.n, .spacing = cube.spacing_value()};
     const auto size = view.image_size();
-    const auto camera = view.camera(lattice);
-    if (!size || !camera) {
-        return size ? camera.error() : size.error();
+    auto shot = script.shot(0, lattice);
+    if (!size || !shot) {
+        return size ? shot.error() : size.error();
     }
     double load = clock.lap();
-    const auto mapping = mapping_for(*opened, cube, workers, progress);
+    const double share = script.pictures > 1 ? 0.5 : 1;  // of the progress, for loading
+    const auto loading = [&](double fraction) { progress(share * fraction); };
+    const auto mapping = mapping_for(*opened, cube, workers, loading);
     if (!mapping) {
         return mapping.error();
     }
     double preprocess = clock.lap();
-    const auto second_half = [&](double fraction) { progress(0.5 + fraction / 2); };
+    const auto second_half = [&](double fraction) { loading(0.5 + fraction / 2); };
     const auto volume = shear::BrickVolume::load(*opened->source, volume::whole(lattice.n), lattice.n,
                                                  *mapping, workers, second_half);
     if (!volume) {
@@ -89,14 +90,22 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     const culling::Settings culling = view.drawing.culling_settings();
     std::optional<culling::Culler> culler;
     if (culling.kind != culling::Kind::off) {
-        const auto level = view::factorise(*camera, *size, lattice, view.sampling()).level();
         culler.emplace(*volume, lattice.spacing);
-        culler->prepare(tf, culling.kind, level, workers);
-        preprocess += clock.lap();
     }
-    for (int i = 0; i < repeat; ++i) {
+    for (int i = 0; i < script.pictures; ++i) {
+        if (i > 0) {
+            shot = script.shot(i, lattice);
+            if (!shot) {
+                return shot.error();
+            }
+        }
+        const view::TransferFunction& tf = shot->tf;
         clock.lap();
-        const auto factorisation = view::factorise(*camera, *size, lattice, view.sampling());
+        const auto factorisation = view::factorise(shot->camera, *size, lattice, view.sampling());
+        if (culler) {
+            culler->prepare(tf, culling.kind, factorisation.level(), workers);
+            preprocess += clock.lap();
+        }
         shear::RenderStats stats;
         const auto& classification = classifier.classify(*volume, tf, factorisation.classify, workers);
         const auto visible =
@@ -104,7 +113,7 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
         const auto windows = shear::render(*volume, classification, factorisation, workers, &stats, {},
                                            visible ? &*visible : nullptr);
         const double render = clock.lap();
-        picture.image = image::warp(factorisation, windows, *camera, *size, tf.background, workers);
+        picture.image = image::warp(factorisation, windows, shot->camera, *size, tf.background, workers);
         const double warp = clock.lap();
         times.push_back({.load = load,
                          .preprocess = preprocess,
@@ -113,6 +122,12 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
                          .warp = warp,
                          .encode = 0,
                          .total = render + warp});
+        if (script.keep) {
+            if (const auto kept = script.keep(i, picture.image); !kept) {
+                return kept.error();
+            }
+        }
+        progress(share + (1 - share) * (i + 1) / script.pictures);
         picture.samples = stats.samples;
         picture.bricks_total = stats.bricks_total;
         picture.bricks_empty = stats.bricks_empty;

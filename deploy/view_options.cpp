@@ -20,6 +20,12 @@ void ViewOptions::add_to(CLI::App& app) {
     app.add_option("--height", height, "world height of a parallel picture; else the cube's diagonal")
         ->check(CLI::PositiveNumber)
         ->group(group);
+    drawing.add_tf(app, group);
+    add_picture_to(app);
+}
+
+void ViewOptions::add_picture_to(CLI::App& app) {
+    const std::string group = "View";
     app.add_option("--size", size, "of the picture, WIDTHxHEIGHT pixels")
         ->capture_default_str()
         ->group(group);
@@ -27,7 +33,7 @@ void ViewOptions::add_to(CLI::App& app) {
         ->check(CLI::IsMember({"draft", "normal", "high"}))
         ->capture_default_str()
         ->group(group);
-    drawing.add_to(app, group);
+    drawing.add_ways(app, group);
 }
 
 base::Result<view::ImageSize> ViewOptions::image_size() const {

@@ -19,7 +19,9 @@ struct ViewOptions {
     std::string quality = "normal";
     options::DrawingOptions drawing;
 
+    // All of them; or size, quality and ways of drawing alone.
     void add_to(CLI::App& app);
+    void add_picture_to(CLI::App& app);
 
     // Whatever can be wrong before the cube is known.
     base::Result<view::ImageSize> image_size() const;
