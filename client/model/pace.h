@@ -42,6 +42,7 @@ class Pace {
     static constexpr std::size_t most_frames = 6;
 
     void set(const Effort& effort);
+    const Effort& effort() const { return effort_; }
     // A frame has come; `render_seconds` as the server says.
     void count(wire::Time now, wire::Time sent, view::Quality quality, double render_seconds);
 

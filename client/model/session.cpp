@@ -68,7 +68,7 @@ void Session::handle(const wire::NetEvent& event, wire::Time now) {
         on_up();
     } else if (const auto* received = std::get_if<wire::Received>(&event);
                received != nullptr && on_link(received->link)) {
-        on_message(received->message, now);
+        on_message(*received, now);
     } else if (const auto* down = std::get_if<wire::LinkDown>(&event);
                down != nullptr && on_link(down->link)) {
         on_down(*down, now);
@@ -84,6 +84,7 @@ void Session::on_up() {
     sent_.clear();
     answered_ = revision_;
     before_link_ = revision_;
+    link_gauge_ = {};
 }
 
 void Session::on_down(const wire::LinkDown& down, wire::Time now) {
@@ -108,7 +109,8 @@ void Session::wait(std::string words, wire::Time now) {
     retry_after_ = std::min(2 * retry_after_, longest_retry);
 }
 
-void Session::on_message(const wire::Message& message, wire::Time now) {
+void Session::on_message(const wire::Received& received, wire::Time now) {
+    const wire::Message& message = received.message;
     if (const auto* description = std::get_if<pb::CubeDescription>(&message.body)) {
         auto cube = cube_from(*description);
         if (!cube) {
@@ -122,7 +124,7 @@ void Session::on_message(const wire::Message& message, wire::Time now) {
         }
         on_tree(std::move(*tree), now);
     } else if (std::holds_alternative<pb::Frame>(message.body)) {
-        on_frame(message, now);
+        on_frame(received, now);
     } else {
         const std::string what = std::string(wire::name(message.body)) + " is not for a client";
         give_up({pb::REASON_BAD_TYPE, what}, now);
@@ -152,7 +154,8 @@ void Session::on_tree(Tree tree, wire::Time now) {
     ready_at_frame_ = std::min(ready_at_frame_, ready);
 }
 
-void Session::on_frame(const wire::Message& message, wire::Time now) {
+void Session::on_frame(const wire::Received& received, wire::Time now) {
+    const wire::Message& message = received.message;
     const auto& frame = std::get<pb::Frame>(message.body);
     if (frame.revision() <= before_link_ || frame.revision() > revision_) {
         return give_up({pb::REASON_INVALID, "frame: of a view that was not asked for"}, now);
@@ -179,9 +182,11 @@ void Session::on_frame(const wire::Message& message, wire::Time now) {
         meter_.count(now, latency, message.payload_size());
         pace_.count(now, sent->at, sent->quality, frame.stats().leaves().render_seconds());
     }
-    if (sent->tree_ready && sent->revision == revision_ && sent->revision == answered_ + 1) {
-        notice_link_speed(message.payload_size(), latency.count() - server_seconds);
-    }
+    link_gauge_.count({.bytes = message.payload_size(),
+                       .size = sent->size,
+                       .deflated = sent->deflated,
+                       .coding = Seconds(frame.stats().encode_seconds()),
+                       .arriving = received.arriving});
     const pb::LeafStats& leaves = frame.stats().leaves();
     frame_ = FrameNote{
         .revision = sent->revision,
@@ -218,7 +223,8 @@ void Session::refine(wire::Time now) {
         return;
     }
     one_of_many_ = false;
-    if (const auto next = pace_.at_rest(quality_, has_come())) {
+    // A picture below its size is no better than a draft.
+    if (const auto next = pace_.at_rest(small_ ? view::Quality::draft : quality_, has_come())) {
         quality_ = *next;
         unsent_ = true;
     }
@@ -264,18 +270,23 @@ void Session::send_view(wire::Time now) {
     if (one_of_many_) {
         quality_ = pace_.while_moving(now);
     }
+    const view::ImageSize size = one_of_many_ && !pace_.effort().fixed
+                                     ? link_gauge_.size_at_rate(wish_->size, pace_.effort().target_rate)
+                                     : wish_->size;
+    small_ = size != wish_->size;
     const wire::View view{.revision = ++revision_,
                           .camera = camera(wish_->viewpoint, cube_->lattice),
-                          .size = wish_->size,
+                          .size = size,
                           .tf = wish_->tf,
                           .quality = quality_,
-                          .deflate = deflate_,
+                          .deflate = link_gauge_.wants_deflate(size),
                           .level_of_detail = wish_->level_of_detail,
                           .sketch = true,
                           .classify = wish_->classify,
                           .culling = wish_->culling};
     effects_.push_back(wire::Send{link_, wire::message(wire::to_wire(view))});
-    sent_.push_back({revision_, view.size, view.quality, now, tree_.nodes.empty() || tree_.ready});
+    sent_.push_back(
+        {revision_, view.size, view.quality, view.deflate, now, tree_.nodes.empty() || tree_.ready});
     sent_at_ = now;
     unsent_ = false;
 }
@@ -285,15 +296,6 @@ void Session::forget_older_than(std::uint64_t revision) {
     answered_ = std::max(answered_, revision);
     while (!sent_.empty() && sent_.front().revision < revision) {
         sent_.pop_front();
-    }
-}
-
-// Deflating a picture takes about as long as a link of this speed needs to carry what it saves.
-void Session::notice_link_speed(std::size_t bytes, double link_seconds) {
-    constexpr double slow = 30e6;  // bytes a second
-    constexpr std::size_t enough_to_tell = std::size_t{1} << 16;
-    if (bytes >= enough_to_tell && link_seconds > 0) {
-        deflate_ = deflate_ || static_cast<double>(bytes) / link_seconds < slow;
     }
 }
 
@@ -310,7 +312,7 @@ Status Session::status(wire::Time now) const {
     status.frame = frame_;
     status.rates = meter_.rates(now);
     status.refining = connection_ == Connection::connected && described_ && wish_ && !is_moving(now) &&
-                      (quality_ != pace_.best() || !has_come());
+                      (quality_ != pace_.best() || small_ || !has_come());
     return status;
 }
 

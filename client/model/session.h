@@ -4,16 +4,17 @@
 //
 //   dial -> CubeDescription, TreeState -> SetView (the newest wins) -> Frame -> FrameShown -> ...
 //
-// While the view moves it asks for pictures that come fast enough; when it rests, for a normal one and then
-// for a high one, and then for none (pace.h). Until the cube is loaded, pictures are of a sketch of it: none
-// is refined, and the last view is answered once more, unasked, when it is. The wish is kept over a lost link
-// and asked for again on the next.
+// While the view moves it asks for pictures that come fast enough, by lesser quality (pace.h) and, where the
+// link is slow, size (link_gauge.h); when it rests, for a normal one and then for a high one, and then for
+// none. Until the cube is loaded, pictures are of a sketch of it: none is refined, and the last view is
+// answered once more, unasked, when it is. The wish is kept over a lost link and asked for again on the next.
 
 #include <deque>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "client/model/link_gauge.h"
 #include "client/model/meter.h"
 #include "client/model/pace.h"
 #include "client/model/status.h"
@@ -77,6 +78,7 @@ class Session {
         std::uint64_t revision;
         view::ImageSize size;
         view::Quality quality;
+        bool deflated;
         wire::Time at;
         bool tree_ready;  // else its picture had to wait for the cube, which is no latency
     };
@@ -84,10 +86,10 @@ class Session {
     void dial(wire::Time now);
     void on_up();
     void on_down(const wire::LinkDown& down, wire::Time now);
-    void on_message(const wire::Message& message, wire::Time now);
+    void on_message(const wire::Received& received, wire::Time now);
     void on_cube(Cube cube, wire::Time now);
     void on_tree(Tree tree, wire::Time now);
-    void on_frame(const wire::Message& message, wire::Time now);
+    void on_frame(const wire::Received& received, wire::Time now);
     void on_tick(wire::Time now);
     // Ends the link, and waits to dial again.
     void give_up(const wire::Fault& fault, wire::Time now);
@@ -101,7 +103,6 @@ class Session {
     void send_if_due(wire::Time now);
     void send_view(wire::Time now);
     void forget_older_than(std::uint64_t revision);
-    void notice_link_speed(std::size_t bytes, double link_seconds);
     bool on_link(wire::LinkId link) const { return linked_ && link == link_; }
 
     wire::Address server_;
@@ -127,17 +128,18 @@ class Session {
     std::optional<Wish> wish_;
     view::Quality quality_ = view::Quality::normal;
     bool one_of_many_ = false;  // changes
+    bool small_ = false;        // the newest view was asked for below its size
     bool unsent_ = false;
     wire::Time changed_at_{};
     wire::Time sent_at_{};
     std::uint64_t revision_ = 0;  // of the newest view sent
     std::deque<Sent> sent_;       // the one last answered first, then the unanswered
     std::uint64_t answered_ = 0;
-    bool deflate_ = false;
     int ready_at_frame_ = 0;  // nodes that were ready when the last frame came
 
     Meter meter_;
     Pace pace_;
+    LinkGauge link_gauge_;
 };
 
 }  // namespace shearwater::model

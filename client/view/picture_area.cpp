@@ -38,9 +38,12 @@ void draw_picture(const Desk& desk, ImVec2 from, ImVec2 size) {
     const float width = static_cast<float>(desk.picture.width());
     const float height = static_cast<float>(desk.picture.height());
     const float fit = std::min(size.x / width, size.y / height);
-    const ImVec2 shown = std::abs(size.x - width * fit) < 2 && std::abs(size.y - height * fit) < 2
-                             ? size
-                             : ImVec2{std::round(width * fit), std::round(height * fit)};
+    // Its sides are whole pixels, which may be large ones.
+    const float rounding = std::max(2.0F, fit);
+    const ImVec2 shown =
+        std::abs(size.x - width * fit) < rounding && std::abs(size.y - height * fit) < rounding
+            ? size
+            : ImVec2{std::round(width * fit), std::round(height * fit)};
     const ImVec2 corner{from.x + std::floor((size.x - shown.x) / 2),
                         from.y + std::floor((size.y - shown.y) / 2)};
     const bool live = desk.status.connection == model::Connection::connected;

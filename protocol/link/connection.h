@@ -36,7 +36,9 @@ class Owner {
     Owner& operator=(const Owner&) = delete;
 
     virtual void on_up(const std::shared_ptr<Connection>& connection, const Peer& peer) = 0;
-    virtual void on_message(const std::shared_ptr<Connection>& connection, wire::Message message) = 0;
+    // `arriving`: from the first byte of its payload to the last.
+    virtual void on_message(const std::shared_ptr<Connection>& connection, wire::Message message,
+                            std::chrono::duration<double> arriving) = 0;
     // It has ended by a fault or by the peer's goodbye, perhaps from inside one of its functions.
     virtual void on_end(const std::shared_ptr<Connection>& connection, const wire::Fault& fault) = 0;
     // Nothing more comes of it.
@@ -136,7 +138,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
     std::uint64_t pings_ = 0;
 
     Clock::Time opened_;
-    Clock::Time heard_;  // last byte in
+    Clock::Time heard_;                         // last byte in
+    std::chrono::duration<double> arriving_{};  // of the last message's payload
     Clock::Time spoke_;  // last byte out
     Clock::Time write_broke_;
     Clock::Time close_by_;

@@ -170,7 +170,7 @@ void Connection::handle(Message message) {
         queue(wire::message(std::move(pong)));
     } else if (!std::holds_alternative<pb::Pong>(message.body)) {
         const std::shared_ptr<Owner> owner = owner_;
-        owner->on_message(shared_from_this(), std::move(message));
+        owner->on_message(shared_from_this(), std::move(message), arriving_);
     }
 }
 
@@ -226,12 +226,15 @@ Awaitable<Parsed<Message>> Connection::read_message(std::optional<std::uint16_t>
         co_return told_by(*goodbye);
     }
     Message message{std::move(*body), nullptr};
+    arriving_ = {};
     if (header->payload > 0) {
+        const Clock::Time from = owner_->clock.now();
         Parsed<base::Buffer> payload = co_await read_bytes(header->payload);
         if (!payload) {
             co_return payload.error();
         }
         message.payload = std::make_shared<const base::Buffer>(std::move(*payload));
+        arriving_ = owner_->clock.now() - from;
     }
     co_return message;
 }

@@ -133,9 +133,10 @@ void Hub::State::on_up(const std::shared_ptr<Connection>& connection, const Peer
     }
 }
 
-void Hub::State::on_message(const std::shared_ptr<Connection>& connection, Message message) {
+void Hub::State::on_message(const std::shared_ptr<Connection>& connection, Message message,
+                            std::chrono::duration<double> arriving) {
     if (knows(*connection)) {
-        tell(wire::Received{connection->link, std::move(message)});
+        tell(wire::Received{connection->link, std::move(message), arriving});
     }
 }
 

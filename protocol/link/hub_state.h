@@ -30,7 +30,8 @@ struct Hub::State final : Owner, std::enable_shared_from_this<Hub::State> {
     void stop();
 
     void on_up(const std::shared_ptr<Connection>& connection, const Peer& peer) override;
-    void on_message(const std::shared_ptr<Connection>& connection, wire::Message message) override;
+    void on_message(const std::shared_ptr<Connection>& connection, wire::Message message,
+                    std::chrono::duration<double> arriving) override;
     void on_end(const std::shared_ptr<Connection>& connection, const wire::Fault& fault) override;
     void on_over(const std::shared_ptr<Connection>& connection) override;
 

@@ -39,6 +39,8 @@ struct LinkUp {  // the handshake is done
 struct Received {
     LinkId link;
     Message message;  // never Challenge, Hello, Welcome, Ping or Pong: links see to those
+    std::chrono::duration<double>
+        arriving{};  // its payload's time on the way, from its first byte to the last
 };
 struct LinkDown {  // also when a dial came to nothing
     LinkId link;

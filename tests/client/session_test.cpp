@@ -176,30 +176,6 @@ TEST_F(SessionTest, RetryDialsAtOnce) {
     EXPECT_THAT(dials_, SizeIs(2));
 }
 
-TEST_F(SessionTest, ASlowLinkIsToldToDeflate) {
-    wish_.size = {512, 512};
-    session_.set_effort({.fixed = view::Quality::normal}, now_);  // a view each
-    connect();
-    image::Image<image::Rgba8> noise(512, 512);
-    std::mt19937 random(1);
-    for (auto& p : noise.pixels()) {
-        p = {static_cast<std::uint8_t>(random()), 0, 0, 255};
-    }
-    for (const auto delay : {5ms, 500ms, 5ms}) {
-        turn();
-        now_ += delay;
-        auto f = frame(views_.back().revision);
-        f.set_width(512);
-        f.set_height(512);
-        receive(f, code(noise));
-    }
-    turn();
-    ASSERT_THAT(views_, SizeIs(4));
-    EXPECT_FALSE(views_[1].deflate);
-    EXPECT_TRUE(views_[2].deflate);
-    EXPECT_TRUE(views_[3].deflate);
-}
-
 TEST_F(SessionTest, TellsTheTreeInOrderWithItsProgress) {
     connect();
     auto state = tree({pb::PHASE_LOADING, pb::PHASE_READY});
