@@ -15,6 +15,7 @@ using namespace shearwater;
 constexpr int unusable = 2;
 
 struct Options {
+    std::vector<std::string> command;
     std::string connect, secret_file, screenshot, controls;
     std::string size = "1280x800";
     options::DrawingOptions drawing;
@@ -31,7 +32,10 @@ std::string check_size(const std::string& text) {
 }
 
 void declare(CLI::App& app, Options& options) {
-    app.add_option("--connect", options.connect, "The server, HOST:PORT")->required();
+    auto* const connect = app.add_option("--connect", options.connect, "The server, HOST:PORT");
+    app.add_option("command", options.command,
+                   "Behind --: instead, the words of a program whose standard streams lead to a server")
+        ->excludes(connect);
     app.add_option(
         "--secret-file", options.secret_file,
         fmt::format("A file of mode 0600 with the server's secret; else ${}", link::Secret::variable));
@@ -49,21 +53,37 @@ void declare(CLI::App& app, Options& options) {
                    "Write the window to this PNG file once the first whole picture is seen, and end");
 }
 
+base::Result<wire::Route> route_of(const Options& options) {
+    if (!options.command.empty()) {
+        return wire::Route(options.command);
+    }
+    const auto address = wire::parse_address(options.connect, 0);
+    if (!address) {
+        return address.error();
+    }
+    if (address->port == 0) {
+        return base::error(base::Code::invalid_argument, "address '" + options.connect + "'",
+                           "the port is missing");
+    }
+    return wire::Route(*address);
+}
+
+// A server that a command starts is told a secret of its own.
+base::Result<link::Secret> secret_of(const Options& options) {
+    return options.command.empty() ? link::Secret::find(options.secret_file) : link::Secret::random();
+}
+
 base::Status run(Options options) {
     std::sscanf(options.size.c_str(), "%dx%d", &options.window.width, &options.window.height);
     auto tf = options.drawing.transfer_function();
     if (!tf) {
         return tf.error();
     }
-    const auto server = wire::parse_address(options.connect, 0);
+    const auto server = route_of(options);
     if (!server) {
         return server.error();
     }
-    if (server->port == 0) {
-        return base::error(base::Code::invalid_argument, "address '" + options.connect + "'",
-                           "the port is missing");
-    }
-    auto secret = link::Secret::find(options.secret_file);
+    auto secret = secret_of(options);
     if (!secret) {
         return secret.error();
     }

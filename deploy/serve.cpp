@@ -1,6 +1,10 @@
+#include <fcntl.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <optional>
 
 #include "deploy/commands.h"
@@ -9,6 +13,7 @@
 #include "deploy/target.h"
 #include "protocol/daemon/options.h"
 #include "protocol/daemon/runtime.h"
+#include "protocol/link/relay.h"
 
 namespace shearwater::deploy {
 namespace {
@@ -20,7 +25,38 @@ struct Flags {
     options::TreeOptions tree;
     options::ServeOptions serve;
     daemon::Options common;
+    bool stdio = false;
 };
+
+// Our standard streams, which are the client's; whatever else is written to them goes to standard error from
+// now on, and nothing else reads from them.
+struct Streams {
+    int in = -1, out = -1;
+};
+base::Result<Streams> take_streams() {
+    const Streams taken{fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 3), fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3)};
+    const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    if (taken.in < 0 || taken.out < 0 || nothing < 0 || dup2(nothing, STDIN_FILENO) < 0 ||
+        dup2(STDERR_FILENO, STDOUT_FILENO) < 0) {
+        return base::error(base::Code::io, "serve --stdio", std::strerror(errno));
+    }
+    close(nothing);
+    return taken;
+}
+
+// The client's first line.
+base::Result<link::Secret> read_secret(int in) {
+    constexpr std::size_t longest = 1024;
+    std::string line;
+    for (char c = 0; line.size() < longest && read(in, &c, 1) == 1 && c != '\n';) {
+        line += c;
+    }
+    auto secret = link::Secret::from_text(line);
+    if (!secret) {
+        return base::error(secret.error().code, "serve --stdio", "the first line should be a secret");
+    }
+    return secret;
+}
 
 // Lines to paste: for looking at the cube, and for starting by hand what no launcher starts.
 void print_how_to_join(const std::string& cube, const tree::Topology& topology, const wire::Address& server,
@@ -51,10 +87,25 @@ base::Status serve(const Flags& flags) {
     if (!topology) {
         return topology.error();
     }
+    Streams streams;
+    base::Result<ChosenSecret> chosen = ChosenSecret{link::Secret::random(), false};
     const bool own_file = !flags.common.secret_file.empty();
-    const auto chosen = choose_secret(own_file ? flags.common.secret_file : topology->secret_file);
-    if (!chosen) {
-        return chosen.error();
+    if (flags.stdio) {
+        const auto taken = take_streams();
+        if (!taken) {
+            return taken.error();
+        }
+        streams = *taken;
+        const auto told = read_secret(streams.in);
+        if (!told) {
+            return told.error();
+        }
+        chosen->secret = *told;
+    } else {
+        chosen = choose_secret(own_file ? flags.common.secret_file : topology->secret_file);
+        if (!chosen) {
+            return chosen.error();
+        }
     }
     auto tree = LocalTree::start({.cube = flags.cube,
                                   .tree = flags.tree,
@@ -73,7 +124,12 @@ base::Status serve(const Flags& flags) {
         }
         secret_file = *std::move(kept);
     }
-    print_how_to_join(flags.cube.path, *topology, tree->address(), secret_file);
+    std::optional<link::Relay> relay;
+    if (flags.stdio) {
+        relay.emplace(streams.in, streams.out, tree->address());
+    } else {
+        print_how_to_join(flags.cube.path, *topology, tree->address(), secret_file);
+    }
 
     bool server_gone = false;
     std::optional<daemon::Runtime> runtime;
@@ -81,6 +137,8 @@ base::Status serve(const Flags& flags) {
         if (!tree->keep_alive()) {
             server_gone = true;
             runtime->stop(1);
+        } else if (relay && relay->ended()) {
+            runtime->stop(0);
         }
     });
     runtime->run();
@@ -101,6 +159,8 @@ Run add_serve(CLI::App& app) {
     flags->tree.add_to(app);
     flags->cube.add_to(app);
     flags->serve.add_to(app);
+    app.add_flag("--stdio", flags->stdio,
+                 "serve one client through the standard streams, whose first line is a secret; ends with it");
     flags->common.add_to(app);
     return [flags] {
         const auto done = serve(*flags);

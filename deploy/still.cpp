@@ -20,7 +20,7 @@ double seconds(wire::Time from, wire::Time to) {
 
 }  // namespace
 
-Still::Still(wire::Address server, const ViewOptions& options, view::ImageSize size, Script script)
+Still::Still(wire::Route server, const ViewOptions& options, view::ImageSize size, Script script)
     : server_(std::move(server)), script_(std::move(script)) {
     to_ask_.resize(static_cast<std::size_t>(script_.pictures));
     std::iota(to_ask_.begin(), to_ask_.end(), 0);

@@ -17,7 +17,7 @@ namespace shearwater::deploy {
 class Still {
   public:
     // The options say how all pictures are drawn; what they show is the script's.
-    Still(wire::Address server, const ViewOptions& options, view::ImageSize size, Script script);
+    Still(wire::Route server, const ViewOptions& options, view::ImageSize size, Script script);
 
     std::vector<wire::NetEffect> start(wire::Time now);
     std::vector<wire::NetEffect> handle(const wire::NetEvent& event, wire::Time now);
@@ -36,7 +36,7 @@ class Still {
     void ask_ahead(wire::Time now, std::vector<wire::NetEffect>& effects);
     void fail(base::Code code, std::string detail);
 
-    wire::Address server_;
+    wire::Route server_;
     Script script_;
     wire::View view_;         // the newest asked for
     std::deque<int> to_ask_;  // pictures

@@ -6,11 +6,13 @@
 namespace shearwater::deploy {
 
 void TargetOptions::add_to(CLI::App& app) {
-    app.add_option("cube", cube.path, "the FITS file, or synthetic:KIND:SIZE");
+    app.add_option("cube", cube.path,
+                   "the FITS file, USER@HOST:PATH of one elsewhere, or synthetic:KIND:SIZE");
     app.add_option("--connect", connect, "HOST:PORT of a running server, instead of a cube");
     app.add_option("--secret-file", secret_file, "file of mode 0600 with the server's secret");
     app.add_option("--threads", threads, "threads that compute; 0: one a processor")
         ->check(CLI::Range(0, 1024));
+    remote.add_to(app);
     tree.add_to(app);
     cube.add_to(app);
 }
@@ -33,6 +35,10 @@ base::Result<Target> open_target(const TargetOptions& options, const std::string
             return server.error();
         }
         return Target{.server = *server, .secret = chosen->secret, .tree = {}};
+    }
+    if (const auto there = remote_cube(options.cube.path)) {
+        return Target{
+            .server = wire::Route(serving_command(*there, options)), .secret = chosen->secret, .tree = {}};
     }
     auto tree = LocalTree::start(
         {.cube = options.cube, .tree = options.tree, .threads = options.threads, .log_level = log_level},

@@ -1,5 +1,6 @@
 #pragma once
-// What a picture or a window is of: a cube on a tree of our own, or whatever a running server serves.
+// What a picture or a window is of: a cube on a tree of our own, here or on another machine, or whatever a
+// running server serves.
 
 #include <CLI/CLI.hpp>
 #include <optional>
@@ -8,6 +9,7 @@
 #include "common/options/cube_options.h"
 #include "common/options/tree_options.h"
 #include "deploy/local_tree.h"
+#include "deploy/remote.h"
 
 namespace shearwater::deploy {
 
@@ -16,6 +18,7 @@ struct TargetOptions {
     options::TreeOptions tree;
     std::string connect;
     std::string secret_file;
+    RemoteOptions remote;
     int threads = 0;
 
     void add_to(CLI::App& app);
@@ -24,7 +27,7 @@ struct TargetOptions {
 };
 
 struct Target {
-    wire::Address server;
+    wire::Route server;
     link::Secret secret;
     std::optional<LocalTree> tree;  // where it is our own
 };

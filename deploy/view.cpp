@@ -25,10 +25,17 @@ base::Result<int> view(const Flags& flags) {
     if (!target) {
         return target.error();
     }
-    std::vector<std::string> arguments{"--connect", wire::to_string(target->server)};
+    std::vector<std::string> arguments;
+    if (target->server.command.empty()) {
+        arguments = {"--connect", wire::to_string(target->server)};
+    }
     const std::vector<std::string> drawing = flags.drawing.arguments();
     arguments.insert(arguments.end(), drawing.begin(), drawing.end());
     arguments.insert(arguments.end(), {"--target-rate", std::to_string(flags.target_rate)});
+    if (!target->server.command.empty()) {
+        arguments.emplace_back("--");
+        arguments.insert(arguments.end(), target->server.command.begin(), target->server.command.end());
+    }
     auto window = Process::start("shearwater-client", arguments, target->secret);
     if (!window) {
         return window.error();

@@ -18,8 +18,12 @@ bool is_final(pb::Reason reason) {
     return reason == pb::REASON_BAD_SECRET || reason == pb::REASON_BAD_VERSION;
 }
 
-std::string words_for(const wire::LinkDown& down, const wire::Address& server) {
+std::string words_for(const wire::LinkDown& down, const wire::Route& server) {
     const std::string where = wire::to_string(server);
+    if (!server.command.empty() &&
+        (down.reason == pb::REASON_UNREACHABLE || down.reason == pb::REASON_LOST)) {
+        return server.command[0] + ": " + base::printable(down.text);  // the program's own words
+    }
     switch (down.reason) {
         case pb::REASON_BAD_SECRET:
             return "The secret is not the one " + where + " has. Start again with the right one.";

@@ -55,7 +55,7 @@ class Session {
     // Before a view is asked for again whose picture lacked parts although the tree is whole.
     static constexpr std::chrono::milliseconds again_after{1000};
 
-    explicit Session(wire::Address server) : server_(std::move(server)) {}
+    explicit Session(wire::Route server) : server_(std::move(server)) {}
 
     void start(wire::Time now);
     void handle(const wire::NetEvent& event, wire::Time now);
@@ -105,7 +105,7 @@ class Session {
     void forget_older_than(std::uint64_t revision);
     bool on_link(wire::LinkId link) const { return linked_ && link == link_; }
 
-    wire::Address server_;
+    wire::Route server_;
     std::vector<wire::NetEffect> effects_;
     std::optional<Picture> picture_;
 

@@ -11,7 +11,7 @@ using Clock = std::chrono::steady_clock;
 // For the goodbye to leave.
 constexpr std::chrono::milliseconds patience{300};
 
-Network::Network(const wire::Address& server, link::Secret secret, std::function<void()> wake)
+Network::Network(const wire::Route& server, link::Secret secret, std::function<void()> wake)
     : wake_(std::move(wake)),
       session_(server),
       hub_(io_, std::move(secret), "client", [this](const wire::NetEvent& event) { on_event(event); }) {

@@ -17,7 +17,7 @@ namespace shearwater::ui {
 class Network {
   public:
     // Dials at once. `wake` is called from the network's thread when there is something to collect.
-    Network(const wire::Address& server, link::Secret secret, std::function<void()> wake);
+    Network(const wire::Route& server, link::Secret secret, std::function<void()> wake);
     ~Network();  // says goodbye
     Network(const Network&) = delete;
     Network& operator=(const Network&) = delete;

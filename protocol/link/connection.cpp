@@ -55,10 +55,10 @@ void Connection::accept(Socket socket, std::string peer_host) {
     start();
 }
 
-void Connection::dial(wire::LinkId to, wire::Address address, pb::Role role) {
+void Connection::dial(wire::LinkId to, wire::Route route, pb::Role role) {
     link = to;
     dialled_ = true;
-    address_ = std::move(address);
+    route_ = std::move(route);
     role_ = role;
     start();
 }
@@ -137,9 +137,11 @@ void Connection::say_goodbye(pb::Reason reason, std::string_view text) {
 
 void Connection::check_deadlines() {
     const Clock::Time now = owner_ ? owner_->clock.now() : Clock::Time{};
-    if (phase_ == Phase::opening && now - opened_ > limits_.handshake) {
+    // A command's server may have to be started first, and a person to be asked for a password.
+    const auto patience = route_.command.empty() ? limits_.handshake : limits_.command;
+    if (phase_ == Phase::opening && now - opened_ > patience) {
         finish(connected_ ? Fault{pb::REASON_TIMED_OUT, "the handshake took too long"}
-                          : Fault{pb::REASON_UNREACHABLE, wire::to_string(address_) + ": no answer"});
+                          : Fault{pb::REASON_UNREACHABLE, wire::to_string(route_) + ": no answer"});
     } else if (phase_ == Phase::up) {
         check_open_link(now);
     } else if (phase_ == Phase::closing && now > close_by_) {
@@ -162,6 +164,11 @@ void Connection::check_open_link(Clock::Time now) {
 }
 
 Fault Connection::lost() const {
+    if (child_) {
+        if (std::string words = child_->last_words(); !words.empty()) {
+            return {pb::REASON_LOST, std::move(words)};
+        }
+    }
     return {pb::REASON_LOST, broken_text_.empty() ? "the other side closed the connection" : broken_text_};
 }
 
@@ -181,6 +188,9 @@ Awaitable<void> Connection::read_side(std::shared_ptr<Connection> self) {
         self->finish(peer.error());
     } else if (self->phase_ == Phase::opening) {
         self->phase_ = Phase::up;
+        if (self->child_) {
+            self->child_->speak_out();
+        }
         const std::shared_ptr<Owner> owner = self->owner_;
         owner->on_up(self, *peer);
         co_await self->read_messages();

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 
+#include "protocol/link/child_program.h"
 #include "protocol/link/handshake.h"
 #include "protocol/link/limits.h"
 #include "protocol/link/send_queue.h"
@@ -57,7 +58,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     Connection(boost::asio::io_context& io, std::shared_ptr<Owner> owner);
     // Starts the coroutines; they keep the connection. Once, one of the two.
     void accept(Socket socket, std::string peer_host);
-    void dial(wire::LinkId link, wire::Address address, pb::Role role);
+    void dial(wire::LinkId link, wire::Route route, pb::Role role);
 
     // Queues a message; does nothing on a link that is not up. A full queue ends the link.
     void send(const wire::Message& message);
@@ -87,6 +88,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     static Awaitable<void> write_side(std::shared_ptr<Connection> self);
 
     Awaitable<wire::Parsed<void>> connect();
+    Awaitable<wire::Parsed<void>> connect_through_command();
     Awaitable<wire::Parsed<void>> connect_to(boost::asio::generic::stream_protocol::endpoint endpoint);
     Awaitable<wire::Parsed<Peer>> shake_hands();
     Awaitable<wire::Parsed<Peer>> shake_hands_accepting();
@@ -132,7 +134,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
     std::uint16_t version_ = wire::handshake_version;
     std::string broken_text_;
 
-    wire::Address address_;  // dialled
+    wire::Route route_;                    // dialled
+    std::shared_ptr<ChildProgram> child_;  // where that is a command
     pb::Role role_ = pb::ROLE_UNKNOWN;
     std::string peer_host_;
     std::uint64_t pings_ = 0;
@@ -140,7 +143,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     Clock::Time opened_;
     Clock::Time heard_;                         // last byte in
     std::chrono::duration<double> arriving_{};  // of the last message's payload
-    Clock::Time spoke_;  // last byte out
+    Clock::Time spoke_;                         // last byte out
     Clock::Time write_broke_;
     Clock::Time close_by_;
 };

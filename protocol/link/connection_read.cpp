@@ -4,6 +4,7 @@
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/use_awaitable.hpp>
+#include <boost/asio/write.hpp>
 #include <new>
 
 #include "protocol/link/connection.h"
@@ -48,16 +49,20 @@ bool grow(base::Buffer& bytes, std::size_t size) {
 
 Awaitable<Parsed<void>> Connection::connect() {
     const auto unreachable = [this](const std::string& why) {
-        return Fault{pb::REASON_UNREACHABLE, wire::to_string(address_) + ": " + why};
+        return Fault{pb::REASON_UNREACHABLE, wire::to_string(route_) + ": " + why};
     };
+    if (!route_.command.empty()) {
+        co_return co_await connect_through_command();
+    }
+    const wire::Address& address = route_.address;
     boost::system::error_code not_numeric;
-    const asio::ip::address numeric = asio::ip::make_address(address_.host, not_numeric);
+    const asio::ip::address numeric = asio::ip::make_address(address.host, not_numeric);
     if (!not_numeric) {
         peer_host_ = numeric.to_string();
-        co_return co_await connect_to(tcp::endpoint(numeric, address_.port));
+        co_return co_await connect_to(tcp::endpoint(numeric, address.port));
     }
     tcp::resolver resolver(io_);
-    const auto [error, found] = co_await resolver.async_resolve(address_.host, std::to_string(address_.port),
+    const auto [error, found] = co_await resolver.async_resolve(address.host, std::to_string(address.port),
                                                                 asio::as_tuple(asio::use_awaitable));
     if (error) {
         co_return unreachable(error.message());
@@ -73,9 +78,32 @@ Awaitable<Parsed<void>> Connection::connect() {
     co_return done;
 }
 
+// The far end is told the secret before anything else, where only it can read it: the stream is private.
+Awaitable<Parsed<void>> Connection::connect_through_command() {
+    auto child = ChildProgram::start(io_, route_.command);
+    if (!child) {
+        co_return Fault{pb::REASON_UNREACHABLE, child.error().message()};
+    }
+    child_ = *std::move(child);
+    peer_host_ = route_.command[0];
+    boost::system::error_code failed;
+    socket_.assign(asio::generic::stream_protocol(AF_UNIX, 0), child_->take_stream(), failed);
+    if (failed) {
+        co_return Fault{pb::REASON_UNREACHABLE, failed.message()};
+    }
+    connected_ = true;
+    const std::string line = owner_->secret.text() + "\n";
+    const auto [error, size] =
+        co_await asio::async_write(socket_, asio::buffer(line), asio::as_tuple(asio::use_awaitable));
+    if (error) {
+        co_return lost();
+    }
+    co_return Parsed<void>();
+}
+
 Awaitable<Parsed<void>> Connection::connect_to(asio::generic::stream_protocol::endpoint endpoint) {
     const auto unreachable = [this](const std::string& why) {
-        return Fault{pb::REASON_UNREACHABLE, wire::to_string(address_) + ": " + why};
+        return Fault{pb::REASON_UNREACHABLE, wire::to_string(route_) + ": " + why};
     };
     if (phase_ != Phase::opening) {
         co_return unreachable("given up");
@@ -140,7 +168,7 @@ Awaitable<Parsed<Peer>> Connection::shake_hands_dialling() {
         co_return version.error();
     }
     version_ = *version;
-    co_return Peer{role_, wire::to_string(address_)};
+    co_return Peer{role_, wire::to_string(route_)};
 }
 
 template <class T>
@@ -228,13 +256,13 @@ Awaitable<Parsed<Message>> Connection::read_message(std::optional<std::uint16_t>
     Message message{std::move(*body), nullptr};
     arriving_ = {};
     if (header->payload > 0) {
-        const Clock::Time from = owner_->clock.now();
+        const auto from = std::chrono::steady_clock::now();
         Parsed<base::Buffer> payload = co_await read_bytes(header->payload);
         if (!payload) {
             co_return payload.error();
         }
         message.payload = std::make_shared<const base::Buffer>(std::move(*payload));
-        arriving_ = owner_->clock.now() - from;
+        arriving_ = std::chrono::steady_clock::now() - from;
     }
     co_return message;
 }

@@ -119,7 +119,7 @@ void Hub::State::perform(const wire::Dial& dial) {
         const auto connection = std::make_shared<Connection>(io, shared_from_this());
         live.insert(connection);
         by_link.emplace(dial.link, connection);
-        connection->dial(dial.link, dial.address, dial.role);
+        connection->dial(dial.link, dial.route, dial.role);
     }
 }
 

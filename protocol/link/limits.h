@@ -8,6 +8,7 @@ namespace shearwater::link {
 
 struct Limits {
     std::chrono::milliseconds handshake{5000};  // a dial's search for the address and connection included
+    std::chrono::milliseconds command{120000};  // the same where a program has to be started for it
     std::chrono::milliseconds heartbeat{2000};  // a ping goes out after so much silence of ours
     std::chrono::milliseconds silence{10000};   // and a link is given up after so much of the peer's
     std::chrono::milliseconds stall{30000};     // while a message leaves: for the next of its bytes to go

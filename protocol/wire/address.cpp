@@ -21,6 +21,17 @@ std::string to_string(const Address& address) {
                                                        : "[" + address.host + "]" + port;
 }
 
+std::string to_string(const Route& route) {
+    if (route.command.empty()) {
+        return to_string(route.address);
+    }
+    std::string words;
+    for (const std::string& word : route.command) {
+        words += (words.empty() ? "" : " ") + word;
+    }
+    return base::printable(words, 120);
+}
+
 base::Result<Address> parse_address(std::string_view text, std::uint16_t default_port) {
     const auto refuse = [&](const char* why) {
         return base::error(base::Code::invalid_argument, "address '" + base::printable(text) + "'", why);

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "protocol/wire/message.h"
 
@@ -25,6 +26,19 @@ struct Address {
 std::string to_string(const Address& address);  // "host:port", "[::1]:port"
 // "host", "host:port", "[::1]", "[::1]:port" or "::1"; the default port where none is given.
 base::Result<Address> parse_address(std::string_view text, std::uint16_t default_port);
+
+// How a server is reached: at an address, or, where there is a command, through the standard streams of the
+// program that it starts.
+struct Route {
+    Route() = default;
+    Route(Address to) : address(std::move(to)) {}
+    explicit Route(std::vector<std::string> through) : command(std::move(through)) {}
+
+    Address address;
+    std::vector<std::string> command;
+    bool operator==(const Route&) const = default;
+};
+std::string to_string(const Route& route);  // "host:port"; a command's words
 
 // Time as the machines see it: it is handed in.
 using Time = std::chrono::steady_clock::time_point;
@@ -62,7 +76,7 @@ struct CloseLink {  // says goodbye first; no LinkDown follows
 };
 struct Dial {
     LinkId link;
-    Address address;
+    Route route;
     pb::Role role;
 };
 using NetEffect = std::variant<Send, CloseLink, Dial>;

@@ -10,7 +10,7 @@ TEST_F(SessionTest, DialsAsAClientAndSendsTheViewOnceTheCubeIsKnown) {
     start();
     ASSERT_THAT(dials_, SizeIs(1));
     EXPECT_EQ(dials_[0].role, pb::ROLE_CLIENT);
-    EXPECT_EQ(dials_[0].address, (wire::Address{"host", 4000}));
+    EXPECT_EQ(dials_[0].route, (wire::Address{"host", 4000}));
     EXPECT_EQ(status().connection, Connection::connecting);
     want();
     up();

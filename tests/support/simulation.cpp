@@ -48,7 +48,7 @@ void Fabric::close(const End& end, pb::Reason reason, const std::string& text) {
 
 void Fabric::dial(int node, const wire::Dial& dial) {
     const End caller{node, dial.link};
-    const int target = dial.address.port;
+    const int target = dial.route.address.port;
     if (!nodes_.contains(target)) {
         inbox_[caller].emplace_back(
             wire::LinkDown{dial.link, pb::REASON_UNREACHABLE, "nobody listens there"});
@@ -262,7 +262,7 @@ Simulation::Simulation(std::uint64_t seed, const tree::Topology& topology, const
       head_(roster_for(topology, n, sketch_level), {.range = {}, .percentile = 99.5}) {
     fabric_.add(server_node, [this](const wire::NetEvent& e) { perform(head_.handle(e, fabric_.now())); });
     fabric_.add(client_node, [this](const wire::NetEvent& e) { on_client_event(e); });
-    fabric_.perform(client_node, {wire::Dial{wire::LinkId{1}, {"sim", server_node}, pb::ROLE_CLIENT}});
+    fabric_.perform(client_node, {wire::Dial{wire::LinkId{1}, wire::Address{"sim", server_node}, pb::ROLE_CLIENT}});
 }
 
 Simulation::~Simulation() = default;
