@@ -49,6 +49,14 @@ base::Result<volume::Mapping> mapping_for(cube::Cube& opened, const options::Cub
     return mapping;
 }
 
+void add(const shear::RenderStats& part, shear::RenderStats& sum) {
+    sum.samples += part.samples;
+    sum.bricks_total += part.bricks_total;
+    sum.bricks_empty += part.bricks_empty;
+    sum.bricks_culled += part.bricks_culled;
+    sum.bricks_rendered += part.bricks_rendered;
+}
+
 }  // namespace
 
 base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const ViewOptions& view,
@@ -66,8 +74,15 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     const view::Lattice lattice{.n = opened->info.n, .spacing = cube.spacing_value()};
     const auto size = view.image_size();
     const auto camera = view.camera(lattice);
-    if (!size || !camera) {
-        return size ? camera.error() : size.error();
+    const auto crop = view.crop_of(lattice);
+    if (!size || !camera || !crop) {
+        return !size ? size.error() : !camera ? camera.error() : crop.error();
+    }
+    const auto mode = view.stereo.mode();
+    std::vector<view::Camera> eyes{*camera};
+    if (mode) {
+        const auto pair = view::eyes_of(*camera, view.stereo.eyes);
+        eyes.assign(pair.begin(), pair.end());
     }
     double load = clock.lap();
     const auto mapping = mapping_for(*opened, cube, workers, progress);
@@ -89,30 +104,36 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     const culling::Settings culling = view.culling.settings();
     std::optional<culling::Culler> culler;
     if (culling.kind != culling::Kind::off) {
-        const auto level = view::factorise(*camera, *size, lattice, view.sampling()).level();
+        const auto level = view::factorise(eyes, *size, lattice, view.sampling(), *crop).front().level();
         culler.emplace(*volume, lattice.spacing);
         culler->prepare(tf, culling.kind, level, workers);
         preprocess += clock.lap();
     }
     for (int i = 0; i < repeat; ++i) {
         clock.lap();
-        const auto factorisation = view::factorise(*camera, *size, lattice, view.sampling());
+        const auto factorisations = view::factorise(eyes, *size, lattice, view.sampling(), *crop);
+        const auto& classification =
+            classifier.classify(*volume, tf, factorisations.front().classify, workers);
+        Seconds spent{.load = load, .preprocess = preprocess};
         shear::RenderStats stats;
-        const auto& classification = classifier.classify(*volume, tf, factorisation.classify, workers);
-        const auto visible =
-            culler ? std::optional(culler->visible(factorisation, tf, culling, workers)) : std::nullopt;
-        const auto windows = shear::render(*volume, classification, factorisation, workers, &stats, {},
-                                           visible ? &*visible : nullptr);
-        const double render = clock.lap();
-        picture.image = image::warp(factorisation, windows, *camera, *size, tf.background, workers);
-        const double warp = clock.lap();
-        times.push_back({.load = load,
-                         .preprocess = preprocess,
-                         .render = render,
-                         .composite = 0,
-                         .warp = warp,
-                         .encode = 0,
-                         .total = render + warp});
+        std::vector<image::Image<image::Rgba8>> pictures;
+        for (std::size_t eye = 0; eye < eyes.size(); ++eye) {
+            const auto& factorisation = factorisations[eye];
+            const auto visible =
+                culler ? std::optional(culler->visible(factorisation, tf, culling, workers)) : std::nullopt;
+            shear::RenderStats of_eye;
+            const auto windows = shear::render(*volume, classification, factorisation, workers, &of_eye, {},
+                                               visible ? &*visible : nullptr);
+            add(of_eye, stats);
+            spent.render += clock.lap();
+            pictures.push_back(
+                image::warp(factorisation, windows, eyes[eye], *size, tf.background, workers));
+            spent.warp += clock.lap();
+        }
+        picture.image = mode ? image::composed(pictures.front(), pictures.back(), *mode)
+                             : std::move(pictures.front());
+        spent.total = spent.render + spent.warp;
+        times.push_back(spent);
         picture.samples = stats.samples;
         picture.bricks_total = stats.bricks_total;
         picture.bricks_empty = stats.bricks_empty;

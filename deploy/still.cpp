@@ -28,6 +28,7 @@ Still::Still(wire::Address server, ViewOptions options, view::TransferFunction t
     view_.level_of_detail = options_.level_of_detail();
     view_.classify = options_.classify_value();
     view_.culling = options_.culling.settings();
+    view_.stereo = options_.stereo.settings();
 }
 
 std::vector<wire::NetEffect> Still::start(wire::Time now) {
@@ -90,11 +91,13 @@ void Still::on_state(const pb::TreeState& state) {
 
 void Still::ask(wire::Time now, std::vector<wire::NetEffect>& effects) {
     const auto camera = options_.camera(*lattice_);
-    if (!camera) {
-        failed_ = camera.error();
+    const auto crop = options_.crop_of(*lattice_);
+    if (!camera || !crop) {
+        failed_ = camera ? crop.error() : camera.error();
         return;
     }
     view_.camera = *camera;
+    view_.crop = *crop;
     options_.orbit.azimuth += repeat_.turn;
     asked_.push_back({++view_.revision, now});
     effects.emplace_back(wire::Send{server_link, wire::message(wire::to_wire(view_))});
@@ -117,7 +120,7 @@ void Still::on_frame(const wire::Message& message, wire::Time now, std::vector<w
     if (frame.missing_size() > 0 || asked == asked_.end()) {
         return;  // the server sends it again when it is whole, if it is the newest
     }
-    auto decoded = wire::picture_from(message, view_.size);
+    auto decoded = wire::pictures_from(message, view_.size, view_.stereo ? 2 : 1);
     if (!decoded) {
         fail(base::Code::corrupt, decoded.error().text);
         return;
@@ -128,7 +131,9 @@ void Still::on_frame(const wire::Message& message, wire::Time now, std::vector<w
         load_seconds_ = seconds(started_, now) - frame.stats().warp_seconds() - leaves.render_seconds();
         progress_ = 1;
     }
-    picture_.image = *std::move(decoded);
+    const auto mode = options_.stereo.mode();
+    picture_.image = mode ? image::composed(decoded->front(), decoded->back(), *mode)
+                          : std::move(decoded->front());
     times_.push_back({.load = load_seconds_,
                       .preprocess = 0,
                       .render = leaves.render_seconds(),

@@ -34,6 +34,11 @@ void ViewOptions::add_to(CLI::App& app) {
     add_classify(app, classify, group);
     add_lod(app, lod, group);
     culling.add_to(app, group);
+    app.add_option("--crop", crop, "show these voxels only: the first and the last along x, y and z, from 0 on")
+        ->expected(6)
+        ->type_name("X0 X1 Y0 Y1 Z0 Z1")
+        ->group(group);
+    stereo.add_to(app, group);
 }
 
 void CullingOptions::add_to(CLI::App& app, const std::string& group) {
@@ -121,7 +126,23 @@ base::Result<view::Camera> ViewOptions::camera(const view::Lattice& lattice) con
     if (const auto valid = view::validate(made, *pixels); !valid) {
         return valid.error();
     }
+    if (const auto eyes = stereo.settings()) {
+        if (const auto valid = view::validate(*eyes, made, *pixels); !valid) {
+            return valid.error();
+        }
+    }
     return made;
+}
+
+base::Result<std::optional<volume::Box>> ViewOptions::crop_of(const view::Lattice& lattice) const {
+    if (crop.size() != 6) {
+        return std::optional<volume::Box>();
+    }
+    const volume::Box box{{crop[0], crop[2], crop[4]}, {crop[1], crop[3], crop[5]}};
+    if (const auto valid = view::validate_crop(box, lattice.n); !valid) {
+        return valid.error();
+    }
+    return std::optional(box);
 }
 
 }  // namespace shearwater::deploy

@@ -1,6 +1,6 @@
 #pragma once
-// The options of a still picture: camera, size, transfer function, quality, classification, level of
-// detail.
+// The options of a still picture: camera, eyes, size, what is shown of the cube, transfer function, quality,
+// classification, level of detail.
 
 #include <CLI/CLI.hpp>
 #include <optional>
@@ -12,6 +12,7 @@
 #include "common/view/camera.h"
 #include "common/view/factorisation.h"
 #include "common/view/transfer_function.h"
+#include "deploy/stereo_options.h"
 
 namespace shearwater::deploy {
 
@@ -43,6 +44,8 @@ struct ViewOptions {
     std::string classify = "post";
     std::string lod;  // "on" or "off"; empty: as the server has it
     CullingOptions culling;
+    StereoOptions stereo;
+    std::vector<std::int64_t> crop;  // first and last voxel along each axis; empty: the whole cube
 
     void add_to(CLI::App& app);
 
@@ -58,8 +61,10 @@ struct ViewOptions {
     view::Sampling sampling() const {
         return view::sampling(quality_value(), level_of_detail().value_or(true), classify_value());
     }
-    // The camera for a cube, checked.
+    // The camera for a cube, checked, with the eyes beside it.
     base::Result<view::Camera> camera(const view::Lattice& lattice) const;
+    // What of a cube is shown, checked.
+    base::Result<std::optional<volume::Box>> crop_of(const view::Lattice& lattice) const;
 };
 
 }  // namespace shearwater::deploy
