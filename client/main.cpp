@@ -3,12 +3,10 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 
 #include "client/view/app.h"
+#include "common/options/drawing_options.h"
 
 namespace {
 
@@ -17,12 +15,9 @@ using namespace shearwater;
 constexpr int unusable = 2;
 
 struct Options {
-    std::string connect, secret_file, tf_file, screenshot;
+    std::string connect, secret_file, screenshot, controls;
     std::string size = "1280x800";
-    std::string classify = "post";
-    std::string lod;
-    std::string culling = "off";
-    double culling_threshold = culling::Settings::default_threshold;
+    options::DrawingOptions drawing;
     ui::WindowOptions window;
     model::Effort effort;
 };
@@ -40,23 +35,7 @@ void declare(CLI::App& app, Options& options) {
     app.add_option(
         "--secret-file", options.secret_file,
         fmt::format("A file of mode 0600 with the server's secret; else ${}", link::Secret::variable));
-    app.add_option("--tf", options.tf_file, "Begin with the transfer function of this TOML file");
-    app.add_option("--classify", options.classify,
-                   "Where the transfer function applies: to samples, or to all values between two")
-        ->check(CLI::IsMember({"post", "pre-integrated"}))
-        ->capture_default_str();
-    app.add_option("--lod", options.lod,
-                   "off: every voxel counts, however small in the picture; else as the server has it")
-        ->check(CLI::IsMember({"on", "off"}));
-    app.add_option("--culling", options.culling,
-                   "Leave out blocks hidden behind others, found by such functions of their opacity")
-        ->check(
-            CLI::IsMember(std::vector<std::string>(culling::kind_names.begin(), culling::kind_names.end())))
-        ->capture_default_str();
-    app.add_option(
-           "--culling-threshold", options.culling_threshold,
-           "Opacity that hides what is behind; the default changes no picture by more than a level of 255")
-        ->check(CLI::Range(0.5, 0.999999));
+    options.drawing.add_to(app);
     app.add_option("--size", options.size, "The window's size")->check(check_size)->capture_default_str();
     app.add_option("--scale", options.window.scale, "Pixels per nominal pixel; else as the display says")
         ->check(CLI::Range(0.5, 4.0));
@@ -64,25 +43,15 @@ void declare(CLI::App& app, Options& options) {
                    "Frames a second to hold while the view moves, by lesser quality where need be")
         ->check(CLI::Range(model::Effort::min_rate, model::Effort::max_rate))
         ->capture_default_str();
+    app.add_option("--controls", options.controls,
+                   "Keep in this file where each control is, for scripts: NAME X Y WIDTH HEIGHT");
     app.add_option("--screenshot", options.screenshot,
                    "Write the window to this PNG file once the first whole picture is seen, and end");
 }
 
-base::Result<view::TransferFunction> read_tf(const std::string& path) {
-    if (path.empty()) {
-        return view::default_transfer_function();
-    }
-    std::ifstream file(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (!file) {
-        return base::error(base::Code::io, "read transfer function " + path, "the file cannot be read");
-    }
-    return view::transfer_function_from_toml(text, path);
-}
-
 base::Status run(Options options) {
     std::sscanf(options.size.c_str(), "%dx%d", &options.window.width, &options.window.height);
-    auto tf = read_tf(options.tf_file);
+    auto tf = options.drawing.transfer_function();
     if (!tf) {
         return tf.error();
     }
@@ -103,17 +72,14 @@ base::Status run(Options options) {
         return window.error();
     }
     ui::Network network(*server, std::move(*secret), ui::Window::wake);
-    ui::App app(
-        **window, network,
-        {.tf = std::move(*tf),
-         .level_of_detail = options.lod.empty() ? std::nullopt : std::optional(options.lod == "on"),
-         .classify = options.classify == "post" ? view::Classify::post : view::Classify::pre_integrated,
-         .culling = {static_cast<culling::Kind>(
-                         std::find(culling::kind_names.begin(), culling::kind_names.end(), options.culling) -
-                         culling::kind_names.begin()),
-                     options.culling_threshold},
-         .effort = options.effort,
-         .screenshot = options.screenshot});
+    ui::App app(**window, network,
+                {.tf = std::move(*tf),
+                 .level_of_detail = options.drawing.level_of_detail(),
+                 .classify = options.drawing.classification(),
+                 .culling = options.drawing.culling_settings(),
+                 .effort = options.effort,
+                 .controls = options.controls,
+                 .screenshot = options.screenshot});
     return app.run();
 }
 

@@ -101,7 +101,7 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     Picture picture;
     std::vector<Seconds> times;
     shear::Classifier classifier;
-    const culling::Settings culling = view.culling.settings();
+    const culling::Settings culling = view.drawing.culling_settings();
     std::optional<culling::Culler> culler;
     if (culling.kind != culling::Kind::off) {
         const auto level = view::factorise(eyes, *size, lattice, view.sampling(), *crop).front().level();

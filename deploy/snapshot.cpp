@@ -51,7 +51,7 @@ base::Status snapshot(const Flags& flags) {
     if (const auto valid = flags.target.validate(); !valid) {
         return valid;
     }
-    const auto tf = flags.view.transfer_function();
+    const auto tf = flags.view.drawing.transfer_function();
     if (!tf) {
         return tf.error();
     }

@@ -25,9 +25,9 @@ Still::Still(wire::Address server, ViewOptions options, view::TransferFunction t
     view_.size = size;
     view_.tf = std::move(tf);
     view_.quality = options_.quality_value();
-    view_.level_of_detail = options_.level_of_detail();
-    view_.classify = options_.classify_value();
-    view_.culling = options_.culling.settings();
+    view_.level_of_detail = options_.drawing.level_of_detail();
+    view_.classify = options_.drawing.classification();
+    view_.culling = options_.drawing.culling_settings();
     view_.stereo = options_.stereo.settings();
 }
 

@@ -1,8 +1,8 @@
 #include <optional>
 
+#include "common/options/drawing_options.h"
 #include "deploy/commands.h"
 #include "deploy/target.h"
-#include "deploy/view_options.h"
 #include "protocol/daemon/runtime.h"
 
 namespace shearwater::deploy {
@@ -12,10 +12,7 @@ const std::string program = "shearwater view";
 
 struct Flags {
     TargetOptions target;
-    std::string tf_file;
-    std::string classify = "post";
-    std::string lod;
-    CullingOptions culling;
+    options::DrawingOptions drawing;
     double target_rate = 20;
 };
 
@@ -29,16 +26,9 @@ base::Result<int> view(const Flags& flags) {
         return target.error();
     }
     std::vector<std::string> arguments{"--connect", wire::to_string(target->server)};
-    arguments.insert(arguments.end(), {"--classify", flags.classify});
-    if (!flags.lod.empty()) {
-        arguments.insert(arguments.end(), {"--lod", flags.lod});
-    }
-    arguments.insert(arguments.end(), {"--culling", flags.culling.kind, "--culling-threshold",
-                                       std::to_string(flags.culling.threshold)});
+    const std::vector<std::string> drawing = flags.drawing.arguments();
+    arguments.insert(arguments.end(), drawing.begin(), drawing.end());
     arguments.insert(arguments.end(), {"--target-rate", std::to_string(flags.target_rate)});
-    if (!flags.tf_file.empty()) {
-        arguments.insert(arguments.end(), {"--tf", flags.tf_file});
-    }
     auto window = Process::start("shearwater-client", arguments, target->secret);
     if (!window) {
         return window.error();
@@ -66,10 +56,7 @@ base::Result<int> view(const Flags& flags) {
 
 Run add_view(CLI::App& app) {
     auto flags = std::make_shared<Flags>();
-    app.add_option("--tf", flags->tf_file, "transfer function to begin with, a TOML file");
-    add_classify(app, flags->classify);
-    add_lod(app, flags->lod);
-    flags->culling.add_to(app);
+    flags->drawing.add_to(app);
     app.add_option("--target-rate", flags->target_rate,
                    "frames a second to hold while the view moves, by lesser quality where need be")
         ->check(CLI::Range(1.0, 60.0))

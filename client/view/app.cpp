@@ -55,6 +55,11 @@ base::Status App::run() {
         collect();
         widgets();
         send_wish();
+        if (!options_.controls.empty()) {
+            if (auto written = desk_.controls.write(options_.controls); !written) {
+                return written;
+            }
+        }
         window_.draw();
         settled_passes_ = is_settled() ? settled_passes_ + 1 : 0;
         constexpr int passes_to_settle = 3;
@@ -96,6 +101,7 @@ void App::collect() {
 }
 
 void App::widgets() {
+    desk_.controls.begin_pass();
     desk_.dragging = false;
     desk_.retry = false;
     desk_.escape = false;

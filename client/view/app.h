@@ -15,6 +15,7 @@ struct AppOptions {
     view::Classify classify = view::Classify::post;
     culling::Settings culling;
     model::Effort effort;
+    std::string controls;    // a file that tells where the controls are; none when empty
     std::string screenshot;  // a file to write the window to once a whole high picture is seen; then it ends
 };
 

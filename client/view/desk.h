@@ -4,6 +4,7 @@
 #include <string>
 
 #include "client/model/session.h"
+#include "client/view/controls.h"
 #include "client/view/texture.h"
 #include "client/view/theme.h"
 
@@ -28,6 +29,7 @@ struct Desk {
     bool retry = false;     // asked to dial now
     bool escape = false;    // the key was pressed in this pass
     bool panel = true;
+    Controls controls;
     int ramp_end = -1;  // the ramp's end being dragged: 0, 1, or none
 
     float px(float nominal) const { return nominal * scale; }

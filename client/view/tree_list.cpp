@@ -67,8 +67,10 @@ void node_line(const Desk& desk, const model::Node& node) {
 
 }  // namespace
 
-void tree_list(const Desk& desk) {
-    section(desk, "TREE");
+void tree_list(Desk& desk) {
+    if (!section(desk, "TREE")) {
+        return;
+    }
     const model::Tree& tree = desk.status.tree;
     if (tree.nodes.empty()) {
         text(theme::muted, "not known yet");

@@ -6,6 +6,6 @@
 namespace shearwater::ui {
 
 // Takes the rest of the panel.
-void tree_list(const Desk& desk);
+void tree_list(Desk& desk);
 
 }  // namespace shearwater::ui

@@ -33,13 +33,38 @@ void small_text(const Desk& desk, ImU32 colour, const std::string& words) {
     ImGui::PopFont();
 }
 
-void section(const Desk& desk, const char* title) {
-    ImGui::Dummy({0, desk.px(5)});
-    small_text(desk, theme::muted, title);
-    const ImVec2 after = ImGui::GetItemRectMax();
-    const float y = (ImGui::GetItemRectMin().y + after.y) / 2;
-    const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
-    ImGui::GetWindowDrawList()->AddLine({after.x + desk.px(8), y}, {right, y}, theme::line);
+bool section(Desk& desk, const char* title, bool unfolded_at_first) {
+    ImGuiStorage& kept = *ImGui::GetStateStorage();
+    const ImGuiID id = ImGui::GetID(title);
+    bool unfolded = kept.GetBool(id, unfolded_at_first);
+    ImGui::Dummy({0, desk.px(3)});
+    ImGui::PushFont(desk.fonts.small);
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    const ImVec2 size{ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight() + desk.px(2)};
+    if (ImGui::InvisibleButton(title, size)) {
+        unfolded = !unfolded;
+        kept.SetBool(id, unfolded);
+    }
+    desk.controls.note(std::string("section/") + title);
+    const ImU32 colour = ImGui::IsItemHovered() ? theme::text : theme::muted;
+    const float mark = desk.px(8);
+    const float y = from.y + ImGui::GetTextLineHeight() / 2;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 middle{from.x + mark / 2, y};
+    const float r = mark / 2;
+    if (unfolded) {
+        list.AddTriangleFilled({middle.x - r, middle.y - r / 2}, {middle.x + r, middle.y - r / 2},
+                               {middle.x, middle.y + r * 0.7F}, colour);
+    } else {
+        list.AddTriangleFilled({middle.x - r / 2, middle.y - r}, {middle.x - r / 2, middle.y + r},
+                               {middle.x + r * 0.7F, middle.y}, colour);
+    }
+    const float title_x = from.x + mark + desk.px(6);
+    list.AddText({title_x, from.y}, colour, title);
+    const float after = title_x + ImGui::CalcTextSize(title).x + desk.px(8);
+    list.AddLine({after, y}, {from.x + size.x, y}, theme::line);
+    ImGui::PopFont();
+    return unfolded;
 }
 
 void dot(const Desk& desk, ImU32 colour) {

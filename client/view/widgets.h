@@ -17,8 +17,8 @@ std::string value_text(double value);
 
 void text(ImU32 colour, const std::string& text);
 void small_text(const Desk& desk, ImU32 colour, const std::string& text);
-// The heading of a section of the panel.
-void section(const Desk& desk, const char* title);
+// The heading of a section of the panel, which a click folds or unfolds. Whether it is unfolded.
+bool section(Desk& desk, const char* title, bool unfolded_at_first = true);
 // A filled circle of the line's height, where the cursor is; the next item follows on the same line.
 void dot(const Desk& desk, ImU32 colour);
 // Buttons side by side, one of which holds. The one that does afterwards.

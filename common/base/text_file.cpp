@@ -1,5 +1,9 @@
 #include "common/base/text_file.h"
 
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -27,6 +31,33 @@ Result<std::string> read_text_file(const std::string& path, std::size_t most_byt
         return error(Code::too_large, operation, "more than " + std::to_string(most_bytes) + " bytes");
     }
     return text;
+}
+
+Status write_text_file(const std::string& path, std::string_view text) {
+    namespace fs = std::filesystem;
+    const std::string operation = "write " + path;
+    std::error_code failed;
+    if (const fs::path folder = fs::path(path).parent_path();
+        !folder.empty() && !fs::exists(folder, failed)) {
+        fs::create_directories(folder, failed);
+        if (failed) {
+            return error(Code::io, operation, failed.message());
+        }
+        fs::permissions(folder, fs::perms::owner_all, failed);
+    }
+    const std::string part = path + "." + std::to_string(getpid()) + ".part";
+    std::ofstream file(part, std::ios::binary | std::ios::trunc);
+    file << text;
+    file.close();
+    if (file) {
+        fs::rename(part, path, failed);
+        if (!failed) {
+            return {};
+        }
+    }
+    const std::string why = failed ? failed.message() : std::strerror(errno);
+    fs::remove(part, failed);
+    return error(Code::io, operation, why);
 }
 
 }  // namespace shearwater::base

@@ -33,9 +33,7 @@ base::Result<std::vector<Case>> CaseOptions::cases() const {
         }
         return cases;
     }
-    deploy::ViewOptions view;
-    view.tf_file = tf_file;
-    const auto tf = view.transfer_function();
+    const auto tf = options::DrawingOptions{.tf_file = tf_file}.transfer_function();
     if (!tf) {
         return tf.error();
     }

@@ -78,7 +78,6 @@ struct Flags {
     Options common;
     CaseOptions drawn{.workloads = {"W3"}};
     std::vector<std::string> tables{"views", "functions", "frames", "family", "pass"};
-    double threshold = culling::Settings::default_threshold;
     std::int64_t block = culling::BlockGrid::default_edge;
     bool parallel = false;
     int check = 0;
@@ -103,7 +102,7 @@ base::Result<bool> measure(const Flags& flags, const Case& drawn, Report& report
     const CullingRun run{.drawn = drawn,
                          .cube = *cube,
                          .view = *view,
-                         .threshold = flags.threshold,
+                         .threshold = flags.common.drawing.culling_threshold,
                          .block = flags.block,
                          .frames = flags.common.frames,
                          .report = report};
@@ -153,7 +152,8 @@ base::Result<bool> culling(const Flags& flags) {
     }
     if (flags.check == 0 && flags.shows("pass-many")) {
         base::Workers workers(flags.common.threads);
-        const auto done = culling_pass_of_many(*view, flags.threshold, flags.common.frames, workers, *report);
+        const auto done = culling_pass_of_many(*view, flags.common.drawing.culling_threshold,
+                                               flags.common.frames, workers, *report);
         if (!done) {
             return done.error();
         }
@@ -168,7 +168,7 @@ base::Result<bool> culling(const Flags& flags) {
 
 Run add_culling(CLI::App& app) {
     auto flags = std::make_shared<Flags>();
-    flags->common.lod = "off";
+    flags->common.drawing.lod = "off";
     flags->drawn.add_to(app);
     app.add_option("--tables", flags->tables,
                    "what is measured, with commas between; pass-many: a cube of 2048^3 voxels")
@@ -178,7 +178,7 @@ Run add_culling(CLI::App& app) {
     app.add_option("--check", flags->check,
                    "instead, so many pictures at random with culling and without; ends with 1 if one differs")
         ->check(CLI::Range(1, 1000000));
-    deploy::add_culling_threshold(app, flags->threshold);
+    flags->common.drawing.add_culling_threshold(app);
     app.add_option("--block", flags->block, "voxels along a block's side, 16 or 32")
         ->check(CLI::IsMember({16, 32}))
         ->capture_default_str();
@@ -186,7 +186,7 @@ Run add_culling(CLI::App& app) {
     flags->common.add_frames(app);
     flags->common.add_image(app);
     flags->common.add_quality(app);
-    flags->common.add_classify(app);
+    flags->common.drawing.add_classify(app);
     flags->common.add_threads(app);
     flags->common.add_json(app);
     return [flags] {

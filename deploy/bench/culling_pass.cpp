@@ -118,7 +118,7 @@ base::Status culling_pass_of_many(const deploy::ViewOptions& view, double thresh
             deploy::ViewOptions seen = first_view(many_edge);
             seen.size = view.size;
             seen.quality = view.quality;
-            seen.lod = "off";
+            seen.drawing.lod = "off";
             seen.parallel = parallel;
             const PassTimes times = times_of(
                 frames,

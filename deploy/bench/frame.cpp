@@ -30,8 +30,8 @@ Record row(const Flags& flags, const Case& drawn, const InProcess& cube, const s
         .count("threads", static_cast<std::uint64_t>(cube.threads()))
         .aside("image", flags.common.image)
         .aside("quality", flags.common.quality)
-        .aside("classify", flags.common.classify)
-        .aside("lod", flags.common.lod)
+        .aside("classify", flags.common.drawing.classify)
+        .aside("lod", flags.common.drawing.lod)
         .count("level", static_cast<std::uint64_t>(frames.front().level))
         .aside("frames", static_cast<double>(frames.size()))
         .number("median_s", all.total.median, 5)
@@ -139,8 +139,8 @@ Run add_frame(CLI::App& app) {
     flags->common.add_frames(app);
     flags->common.add_image(app);
     flags->common.add_quality(app);
-    flags->common.add_classify(app);
-    flags->common.add_lod(app);
+    flags->common.drawing.add_classify(app);
+    flags->common.drawing.add_lod(app);
     flags->common.add_threads(app);
     flags->common.add_json(app);
     return [flags] { return status_of("frame", frame(*flags)); };

@@ -83,8 +83,8 @@ Run add_images(CLI::App& app) {
     add_workload(app, flags->workload);
     flags->common.add_frames(app);
     flags->common.add_quality(app);
-    flags->common.add_classify(app);
-    flags->common.add_lod(app);
+    flags->common.drawing.add_classify(app);
+    flags->common.drawing.add_lod(app);
     flags->common.add_threads(app);
     flags->common.add_json(app);
     return [flags] { return status_of("images", images(*flags)); };

@@ -101,8 +101,8 @@ Run add_large(CLI::App& app) {
     flags->common.add_frames(app);
     flags->common.add_image(app);
     flags->common.add_quality(app);
-    flags->common.add_classify(app);
-    flags->common.add_lod(app);
+    flags->common.drawing.add_classify(app);
+    flags->common.drawing.add_lod(app);
     flags->common.add_threads(app);
     flags->common.add_json(app);
     return [flags] { return status_of("large", large(*flags)); };

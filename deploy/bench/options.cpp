@@ -44,20 +44,11 @@ void Options::add_quality(CLI::App& app) {
         ->capture_default_str();
 }
 
-void Options::add_classify(CLI::App& app) {
-    deploy::add_classify(app, classify);
-}
-
-void Options::add_lod(CLI::App& app) {
-    deploy::add_lod(app, lod);
-}
-
 base::Result<deploy::ViewOptions> Options::view(std::int64_t edge) const {
     deploy::ViewOptions made = first_view(edge);
     made.size = image;
     made.quality = quality;
-    made.classify = classify;
-    made.lod = lod;
+    made.drawing = drawing;
     if (const auto camera = made.camera({.n = {edge, edge, edge}}); !camera) {
         return base::error(camera.error().code, "--image " + image, camera.error().detail);
     }

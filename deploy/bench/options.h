@@ -16,8 +16,7 @@ struct Options {
     int in_flight = 1;
     std::string image = "512x512";
     std::string quality = "normal";
-    std::string classify = "post";
-    std::string lod = "on";
+    options::DrawingOptions drawing{.lod = "on"};
     std::string json;
 
     void add_json(CLI::App& app);
@@ -26,11 +25,8 @@ struct Options {
     void add_in_flight(CLI::App& app);
     void add_image(CLI::App& app);
     void add_quality(CLI::App& app);
-    void add_classify(CLI::App& app);
-    void add_lod(CLI::App& app);
 
-    // first_view with these options' image, quality, classification and level of detail,
-    // checked.
+    // first_view with these options' image, quality and ways of drawing, checked.
     base::Result<deploy::ViewOptions> view(std::int64_t edge) const;
 };
 

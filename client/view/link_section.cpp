@@ -1,0 +1,85 @@
+#include "client/view/sections.h"
+#include "client/view/widgets.h"
+
+namespace shearwater::ui {
+
+namespace {
+
+using model::Connection;
+
+ImU32 colour_of_link(Connection connection) {
+    switch (connection) {
+        case Connection::connected:
+            return theme::good;
+        case Connection::connecting:
+        case Connection::waiting:
+            return theme::busy;
+        case Connection::refused:
+            break;
+    }
+    return theme::bad;
+}
+
+const char* word_for_link(Connection connection) {
+    switch (connection) {
+        case Connection::connected:
+            return "connected";
+        case Connection::connecting:
+            return "connecting";
+        case Connection::waiting:
+            return "reconnecting";
+        case Connection::refused:
+            return "refused";
+    }
+    return "";
+}
+
+struct HelpLine {
+    const char* input;
+    const char* effect;
+};
+constexpr HelpLine help_lines[] = {
+    {"Left drag", "turn"},
+    {"Right drag, Shift left drag", "move"},
+    {"Wheel", "zoom at the cursor"},
+    {"Double click, R", "reset the view"},
+    {"P", "perspective or parallel"},
+    {"C, Shift C", "next, previous colour map"},
+    {"I", "reverse the colour map"},
+    {"Arrows, +, -", "turn, zoom"},
+    {"Tab", "hide or show this panel"},
+    {"Ctrl Q", "quit"},
+};
+
+void help(const Desk& desk) {
+    ImGui::BeginTooltip();
+    for (const HelpLine& line : help_lines) {
+        ImGui::TextUnformatted(line.input);
+        ImGui::SameLine(desk.px(220));
+        text(theme::muted, line.effect);
+    }
+    ImGui::EndTooltip();
+}
+
+}  // namespace
+
+void link_section(Desk& desk) {
+    ImGui::PushFont(desk.fonts.bold);
+    ImGui::TextUnformatted("Shearwater");
+    ImGui::PopFont();
+    const float side = ImGui::GetFrameHeight();
+    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - side);
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() - desk.px(2));
+    ImGui::Button("?", {side, side});
+    if (ImGui::IsItemHovered()) {
+        help(desk);
+    }
+    dot(desk, colour_of_link(desk.status.connection));
+    text(theme::text, word_for_link(desk.status.connection));
+    if (desk.status.connection == Connection::waiting || desk.status.connection == Connection::refused) {
+        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - desk.px(92));
+        desk.retry = ImGui::SmallButton("connect now");
+    }
+}
+
+}  // namespace shearwater::ui

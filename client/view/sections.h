@@ -1,0 +1,16 @@
+#pragma once
+// The parts of the panel, from the top: each draws itself where the cursor is, and changes the desk.
+
+#include "client/view/desk.h"
+
+namespace shearwater::ui {
+
+// The name, the help, and how the link to the server stands.
+void link_section(Desk& desk);
+void cube_section(Desk& desk);
+void camera_section(Desk& desk);
+void colour_section(Desk& desk);
+// Quality, culling, and how fast frames come.
+void speed_section(Desk& desk);
+
+}  // namespace shearwater::ui
