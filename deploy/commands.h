@@ -12,6 +12,7 @@ using Run = std::function<int()>;
 Run add_view(CLI::App& app);
 Run add_serve(CLI::App& app);
 Run add_snapshot(CLI::App& app);
+Run add_movie(CLI::App& app);
 Run add_info(CLI::App& app);
 Run add_sample(CLI::App& app);
 Run add_bench(CLI::App& app);  // in deploy/bench

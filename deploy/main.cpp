@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
         {"view", "show a cube in a window, on a local tree or a running server", deploy::add_view},
         {"serve", "start a tree for a cube and keep it running", deploy::add_serve},
         {"snapshot", "draw one picture of a cube into a PNG file", deploy::add_snapshot},
+        {"movie", "draw a flight past cubes, frame by frame or as a film", deploy::add_movie},
         {"info", "say what a FITS file holds", deploy::add_info},
         {"sample", "make a sample cube", deploy::add_sample},
         {"bench", "measure how fast pictures are drawn here", deploy::add_bench},

@@ -49,6 +49,14 @@ base::Result<volume::Mapping> mapping_for(cube::Cube& opened, const options::Cub
     return mapping;
 }
 
+std::vector<view::Camera> eyes_of(const view::Camera& camera, const StereoOptions& stereo) {
+    if (!stereo.mode()) {
+        return {camera};
+    }
+    const auto pair = view::eyes_of(camera, stereo.eyes);
+    return {pair.begin(), pair.end()};
+}
+
 void add(const shear::RenderStats& part, shear::RenderStats& sum) {
     sum.samples += part.samples;
     sum.bricks_total += part.bricks_total;
@@ -60,8 +68,7 @@ void add(const shear::RenderStats& part, shear::RenderStats& sum) {
 }  // namespace
 
 base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const ViewOptions& view,
-                                      const view::TransferFunction& tf, int threads, int repeat,
-                                      const volume::Progress& progress) {
+                                      const Script& script, int threads, const volume::Progress& progress) {
     base::Workers workers(threads);
     Clock clock;
     auto opened = cube::open(cube.path, cube.open_options());
@@ -73,24 +80,20 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     }
     const view::Lattice lattice{.n = opened->info.n, .spacing = cube.spacing_value()};
     const auto size = view.image_size();
-    const auto camera = view.camera(lattice);
+    auto shot = script.shot(0, lattice);
     const auto crop = view.crop_of(lattice);
-    if (!size || !camera || !crop) {
-        return !size ? size.error() : !camera ? camera.error() : crop.error();
-    }
-    const auto mode = view.stereo.mode();
-    std::vector<view::Camera> eyes{*camera};
-    if (mode) {
-        const auto pair = view::eyes_of(*camera, view.stereo.eyes);
-        eyes.assign(pair.begin(), pair.end());
+    if (!size || !shot || !crop) {
+        return !size ? size.error() : !shot ? shot.error() : crop.error();
     }
     double load = clock.lap();
-    const auto mapping = mapping_for(*opened, cube, workers, progress);
+    const double share = script.pictures > 1 ? 0.5 : 1;  // of the progress, for loading
+    const auto loading = [&](double fraction) { progress(share * fraction); };
+    const auto mapping = mapping_for(*opened, cube, workers, loading);
     if (!mapping) {
         return mapping.error();
     }
     double preprocess = clock.lap();
-    const auto second_half = [&](double fraction) { progress(0.5 + fraction / 2); };
+    const auto second_half = [&](double fraction) { loading(0.5 + fraction / 2); };
     const auto volume = shear::BrickVolume::load(*opened->source, volume::whole(lattice.n), lattice.n,
                                                  *mapping, workers, second_half);
     if (!volume) {
@@ -104,14 +107,23 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     const culling::Settings culling = view.drawing.culling_settings();
     std::optional<culling::Culler> culler;
     if (culling.kind != culling::Kind::off) {
-        const auto level = view::factorise(eyes, *size, lattice, view.sampling(), *crop).front().level();
         culler.emplace(*volume, lattice.spacing);
-        culler->prepare(tf, culling.kind, level, workers);
-        preprocess += clock.lap();
     }
-    for (int i = 0; i < repeat; ++i) {
+    for (int i = 0; i < script.pictures; ++i) {
+        if (i > 0) {
+            shot = script.shot(i, lattice);
+            if (!shot) {
+                return shot.error();
+            }
+        }
+        const view::TransferFunction& tf = shot->tf;
         clock.lap();
+        const std::vector<view::Camera> eyes = eyes_of(shot->camera, view.stereo);
         const auto factorisations = view::factorise(eyes, *size, lattice, view.sampling(), *crop);
+        if (culler) {
+            culler->prepare(tf, culling.kind, factorisations.front().level(), workers);
+            preprocess += clock.lap();
+        }
         const auto& classification =
             classifier.classify(*volume, tf, factorisations.front().classify, workers);
         Seconds spent{.load = load, .preprocess = preprocess};
@@ -130,10 +142,17 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
                 image::warp(factorisation, windows, eyes[eye], *size, tf.background, workers));
             spent.warp += clock.lap();
         }
+        const auto mode = view.stereo.mode();
         picture.image = mode ? image::composed(pictures.front(), pictures.back(), *mode)
                              : std::move(pictures.front());
         spent.total = spent.render + spent.warp;
         times.push_back(spent);
+        if (script.keep) {
+            if (const auto kept = script.keep(i, picture.image); !kept) {
+                return kept.error();
+            }
+        }
+        progress(share + (1 - share) * (i + 1) / script.pictures);
         picture.samples = stats.samples;
         picture.bricks_total = stats.bricks_total;
         picture.bricks_empty = stats.bricks_empty;

@@ -9,10 +9,10 @@
 
 namespace shearwater::deploy {
 
-// Draws `repeat.times` pictures, in their order, and keeps a tree of ours alive meanwhile. Progress
+// Draws the script's pictures and keeps a tree of ours alive meanwhile. Progress
 // is Still's. `program` names us to the server.
 base::Result<Picture> draw_over_links(const std::string& program, Target& target, const ViewOptions& view,
-                                      const view::TransferFunction& tf, const view::ImageSize& size,
-                                      const Repeat& repeat, const volume::Progress& progress);
+                                      const view::ImageSize& size, Script script,
+                                      const volume::Progress& progress);
 
 }  // namespace shearwater::deploy

@@ -43,7 +43,7 @@ base::Result<Picture> draw_by_tree(const Flags& flags, const view::TransferFunct
         return target.error();
     }
     ProgressBar bar(flags.repeat > 1 ? "loading and drawing" : "loading");
-    return draw_over_links(program, *target, flags.view, tf, size, {.times = flags.repeat},
+    return draw_over_links(program, *target, flags.view, size, script_of(flags.view, tf, flags.repeat),
                            [&](double fraction) { bar.show(fraction); });
 }
 
@@ -62,8 +62,8 @@ base::Status snapshot(const Flags& flags) {
     base::Result<Picture> picture = Picture{};
     if (flags.target.connect.empty() && flags.target.tree.one_process()) {
         ProgressBar bar("loading");
-        picture = draw_in_process(flags.target.cube, flags.view, *tf, flags.target.threads, flags.repeat,
-                                  [&](double fraction) { bar.show(fraction); });
+        picture = draw_in_process(flags.target.cube, flags.view, script_of(flags.view, *tf, flags.repeat),
+                                  flags.target.threads, [&](double fraction) { bar.show(fraction); });
     } else {
         picture = draw_by_tree(flags, *tf, *size);
     }

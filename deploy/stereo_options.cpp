@@ -1,6 +1,6 @@
 #include "deploy/stereo_options.h"
 
-#include <vector>
+#include <fmt/core.h>
 
 namespace shearwater::deploy {
 
@@ -23,6 +23,23 @@ void StereoOptions::add_to(CLI::App& app, const std::string& group) {
         ->needs(stereo)
         ->group(group);
     app.add_flag("--swap-eyes", eyes.swap, "show each eye what is the other's")->needs(stereo)->group(group);
+}
+
+std::vector<std::string> StereoOptions::arguments() const {
+    if (!mode()) {
+        return {};
+    }
+    std::vector<std::string> all{"--stereo", shown};
+    if (eyes.separation > 0) {
+        all.insert(all.end(), {"--eye-separation", fmt::format("{}", eyes.separation)});
+    }
+    if (eyes.convergence > 0) {
+        all.insert(all.end(), {"--convergence", fmt::format("{}", eyes.convergence)});
+    }
+    if (eyes.swap) {
+        all.emplace_back("--swap-eyes");
+    }
+    return all;
 }
 
 }  // namespace shearwater::deploy

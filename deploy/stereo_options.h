@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/image/stereo_modes.h"
 #include "common/view/stereo.h"
@@ -17,6 +18,8 @@ struct StereoOptions {
     view::StereoSettings eyes;
 
     void add_to(CLI::App& app, const std::string& group = "Options");
+
+    std::vector<std::string> arguments() const;  // as they are given
 
     // Nothing where one picture is wanted.
     std::optional<image::StereoMode> mode() const { return image::stereo_mode(shown); }

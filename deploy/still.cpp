@@ -1,6 +1,7 @@
 #include "deploy/still.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "protocol/wire/picture.h"
 #include "protocol/wire/words.h"
@@ -19,11 +20,11 @@ double seconds(wire::Time from, wire::Time to) {
 
 }  // namespace
 
-Still::Still(wire::Address server, ViewOptions options, view::TransferFunction tf, view::ImageSize size,
-             const Repeat& repeat)
-    : server_(std::move(server)), options_(std::move(options)), repeat_(repeat) {
+Still::Still(wire::Address server, const ViewOptions& options, view::ImageSize size, Script script)
+    : server_(std::move(server)), options_(options), script_(std::move(script)) {
+    to_ask_.resize(static_cast<std::size_t>(script_.pictures));
+    std::iota(to_ask_.begin(), to_ask_.end(), 0);
     view_.size = size;
-    view_.tf = std::move(tf);
     view_.quality = options_.quality_value();
     view_.level_of_detail = options_.drawing.level_of_detail();
     view_.classify = options_.drawing.classification();
@@ -90,23 +91,25 @@ void Still::on_state(const pb::TreeState& state) {
 }
 
 void Still::ask(wire::Time now, std::vector<wire::NetEffect>& effects) {
-    const auto camera = options_.camera(*lattice_);
+    const int picture = to_ask_.front();
+    to_ask_.pop_front();
+    auto shot = script_.shot(picture, *lattice_);
     const auto crop = options_.crop_of(*lattice_);
-    if (!camera || !crop) {
-        failed_ = camera ? crop.error() : camera.error();
+    if (!shot || !crop) {
+        failed_ = shot ? crop.error() : shot.error();
         return;
     }
-    view_.camera = *camera;
+    view_.camera = shot->camera;
+    view_.tf = std::move(shot->tf);
     view_.crop = *crop;
-    options_.orbit.azimuth += repeat_.turn;
-    asked_.push_back({++view_.revision, now});
+    asked_.push_back({++view_.revision, picture, now});
     effects.emplace_back(wire::Send{server_link, wire::message(wire::to_wire(view_))});
 }
 
 // One at a time, for of two that wait to be sent the newer takes the other's place.
 void Still::ask_ahead(wire::Time now, std::vector<wire::NetEffect>& effects) {
     const auto in_flight = static_cast<int>(asked_.size());
-    if (in_flight < repeat_.in_flight && static_cast<int>(times_.size()) + in_flight < repeat_.times) {
+    if (in_flight < script_.in_flight && !to_ask_.empty()) {
         ask(now, effects);
     }
 }
@@ -142,6 +145,16 @@ void Still::on_frame(const wire::Message& message, wire::Time now, std::vector<w
                       .encode = frame.stats().encode_seconds(),
                       .total = seconds(asked->at, seen),
                       .interval = seconds(times_.empty() ? asked->at : seen_, seen)});
+    if (script_.keep) {
+        if (const auto kept = script_.keep(asked->picture, picture_.image); !kept) {
+            failed_ = kept.error();
+            return;
+        }
+    }
+    // The server passed over the older ones, which waited while a newer came.
+    for (auto passed = asked; passed != asked_.begin();) {
+        to_ask_.push_front((--passed)->picture);
+    }
     asked_.erase(asked_.begin(), asked + 1);
     seen_ = seen;
     picture_.samples = leaves.samples();
@@ -151,12 +164,12 @@ void Still::on_frame(const wire::Message& message, wire::Time now, std::vector<w
     picture_.bricks_rendered = leaves.bricks_rendered();
     picture_.window_bytes = leaves.window_bytes();
     picture_.frame_bytes = message.payload_size();
-    finished_ = static_cast<int>(times_.size()) >= repeat_.times;
+    finished_ = static_cast<int>(times_.size()) >= script_.pictures;
     ask_ahead(seen, effects);
 }
 
 double Still::progress() const {
-    const double pictures = repeat_.times;
+    const double pictures = script_.pictures;
     return pictures > 1 ? (progress_ + static_cast<double>(times_.size())) / (1 + pictures) : progress_;
 }
 

@@ -1,37 +1,28 @@
 #pragma once
-// A client without a window: asks a server for one view, some times over, and keeps the last picture.
-// Between times the camera may turn. A pure state machine, like all that speak on links.
+// A client without a window: asks a server for the pictures of a script. A pure state machine, like all that
+// speak on links.
 
 #include <deque>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "deploy/picture.h"
-#include "deploy/view_options.h"
+#include "deploy/script.h"
 #include "protocol/wire/convert.h"
 #include "protocol/wire/events.h"
 
 namespace shearwater::deploy {
 
-struct Repeat {
-    int times = 1;
-    double turn = 0;  // degrees of azimuth from one picture to the next
-    // Views asked for and not yet seen, once the first picture has come: while a window is turned the server
-    // has the next before the last is there.
-    int in_flight = 1;
-};
-
 class Still {
   public:
-    Still(wire::Address server, ViewOptions options, view::TransferFunction tf, view::ImageSize size,
-          const Repeat& repeat);
+    // The options say how all pictures are drawn; what they show is the script's.
+    Still(wire::Address server, const ViewOptions& options, view::ImageSize size, Script script);
 
     std::vector<wire::NetEffect> start(wire::Time now);
     std::vector<wire::NetEffect> handle(const wire::NetEvent& event, wire::Time now);
 
-    // The picture, once it is whole, or why there is none.
+    // The last picture, once it is whole, or why there is none.
     bool done() const { return finished_ || failed_.has_value(); }
     base::Result<Picture> take();
 
@@ -47,14 +38,16 @@ class Still {
 
     wire::Address server_;
     ViewOptions options_;
-    wire::View view_;
-    Repeat repeat_;
+    Script script_;
+    wire::View view_;         // the newest asked for
+    std::deque<int> to_ask_;  // pictures
     std::optional<view::Lattice> lattice_;
     std::vector<Seconds> times_;
     Picture picture_;
     wire::Time started_{};
     struct Asked {
         std::uint64_t revision;
+        int picture;
         wire::Time at;
     };
     std::deque<Asked> asked_;  // and not seen

@@ -24,7 +24,11 @@ struct ViewOptions {
     StereoOptions stereo;
     std::vector<std::int64_t> crop;  // first and last voxel along each axis; empty: the whole cube
 
+    // All of them; or those that do not say from where, nor by which transfer function.
     void add_to(CLI::App& app);
+    void add_picture_to(CLI::App& app);
+    // The latter, as they are given.
+    std::vector<std::string> picture_arguments() const;
 
     // Whatever can be wrong before the cube is known.
     base::Result<view::ImageSize> image_size() const;
@@ -34,7 +38,9 @@ struct ViewOptions {
         return view::sampling(quality_value(), drawing.level_of_detail().value_or(true),
                               drawing.classification());
     }
-    // The camera for a cube, checked, with the eyes beside it.
+    // Whether a picture can be taken so by a camera, and by the eyes beside it.
+    base::Status check(const view::Camera& camera) const;
+    // The camera for a cube, checked.
     base::Result<view::Camera> camera(const view::Lattice& lattice) const;
     // What of a cube is shown, checked.
     base::Result<std::optional<volume::Box>> crop_of(const view::Lattice& lattice) const;

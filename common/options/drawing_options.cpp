@@ -7,7 +7,15 @@
 namespace shearwater::options {
 
 void DrawingOptions::add_to(CLI::App& app, const std::string& group) {
+    add_tf(app, group);
+    add_ways(app, group);
+}
+
+void DrawingOptions::add_tf(CLI::App& app, const std::string& group) {
     app.add_option("--tf", tf_file, "transfer function, a TOML file")->group(group);
+}
+
+void DrawingOptions::add_ways(CLI::App& app, const std::string& group) {
     add_classify(app, group);
     add_lod(app, group);
     app.add_option("--culling", culling,

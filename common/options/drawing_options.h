@@ -20,8 +20,10 @@ struct DrawingOptions {
     std::string culling = "off";
     double culling_threshold = culling::Settings::default_threshold;
 
-    // All of them, or one by one.
+    // All of them; or the transfer function, and the ways it is drawn; or one by one.
     void add_to(CLI::App& app, const std::string& group = "Options");
+    void add_tf(CLI::App& app, const std::string& group = "Options");
+    void add_ways(CLI::App& app, const std::string& group = "Options");
     void add_classify(CLI::App& app, const std::string& group = "Options");
     void add_lod(CLI::App& app, const std::string& group = "Options");
     void add_culling_threshold(CLI::App& app, const std::string& group = "Options");

@@ -35,9 +35,11 @@ ViewOptions options_from(double azimuth) {
     return options;
 }
 
-Still still_of(const Repeat& repeat) {
-    return {
-        {.host = "127.0.0.1", .port = 1}, options_from(10), view::default_transfer_function(), size, repeat};
+Still still_of(int pictures, int in_flight) {
+    return {{.host = "127.0.0.1", .port = 1},
+            options_from(10),
+            size,
+            script_of(options_from(10), view::default_transfer_function(), pictures, 25, in_flight)};
 }
 
 wire::NetEvent description() {
@@ -59,7 +61,7 @@ wire::NetEvent frame_of(std::uint64_t revision) {
 
 TEST(Still, TurnsFromPictureToPicture) {
     constexpr int times = 3;
-    Still still = still_of({.times = times, .turn = 25});
+    Still still = still_of(times, 1);
     const wire::Time now{};
     still.start(now);
     wire::NetEvent event = description();
@@ -82,7 +84,7 @@ TEST(Still, TurnsFromPictureToPicture) {
 
 // From the second on, and never two views at once, of which the newer would take the other's place.
 TEST(Still, AsksAhead) {
-    Still still = still_of({.times = 4, .turn = 25, .in_flight = 2});
+    Still still = still_of(4, 2);
     const wire::Time now{};
     still.start(now);
     const auto revision = [&](const wire::NetEvent& event) -> std::uint64_t {
@@ -103,6 +105,32 @@ TEST(Still, AsksAhead) {
     const auto picture = still.take();
     ASSERT_TRUE(picture);
     EXPECT_EQ(picture->each.size(), 4U);
+}
+
+// A server that is busy draws only the newest of what waits: each picture comes all the same.
+TEST(Still, AsksAgainForWhatWasPassedOver) {
+    std::vector<int> kept;
+    Script script = script_of(options_from(10), view::default_transfer_function(), 4, 25, 2);
+    script.keep = [&](int index, const image::Image<image::Rgba8>&) {
+        kept.push_back(index);
+        return base::Status{};
+    };
+    Still still({.host = "127.0.0.1", .port = 1}, options_from(10), size, script);
+    const wire::Time now{};
+    still.start(now);
+    const auto view_after = [&](const wire::NetEvent& event) { return asked(still.handle(event, now)); };
+    ASSERT_TRUE(view_after(description()));
+    ASSERT_TRUE(view_after(frame_of(1)));
+    const auto third = view_after(wire::Tick{});
+    ASSERT_TRUE(third);
+    auto next = view_after(frame_of(third->revision));  // the second never came
+    ASSERT_TRUE(next);
+    EXPECT_EQ(next->camera, *options_from(35).camera(lattice));
+    next = view_after(frame_of(next->revision));
+    ASSERT_TRUE(next);
+    view_after(frame_of(next->revision));
+    EXPECT_TRUE(still.done());
+    EXPECT_EQ(kept, (std::vector<int>{0, 2, 1, 3}));
 }
 
 }  // namespace

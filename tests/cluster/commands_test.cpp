@@ -184,7 +184,7 @@ TEST_F(Commands, MistakesGetOneLine) {
 }
 
 TEST_F(Commands, HelpEndsWithZero) {
-    for (const std::string command : {"", "view", "serve", "snapshot", "info", "sample", "bench"}) {
+    for (const std::string command : {"", "view", "serve", "snapshot", "movie", "info", "sample", "bench"}) {
         const Outcome outcome = run(command + " --help");
         EXPECT_EQ(outcome.status, 0);
         EXPECT_NE(outcome.out.find("--help"), std::string::npos);
