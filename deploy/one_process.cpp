@@ -138,13 +138,12 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
                                                visible ? &*visible : nullptr);
             add(of_eye, stats);
             spent.render += clock.lap();
-            pictures.push_back(
-                image::warp(factorisation, windows, eyes[eye], *size, tf.background, workers));
+            pictures.push_back(image::warp(factorisation, windows, eyes[eye], *size, tf.background, workers));
             spent.warp += clock.lap();
         }
         const auto mode = view.stereo.mode();
-        picture.image = mode ? image::composed(pictures.front(), pictures.back(), *mode)
-                             : std::move(pictures.front());
+        picture.image =
+            mode ? image::composed(pictures.front(), pictures.back(), *mode) : std::move(pictures.front());
         spent.total = spent.render + spent.warp;
         times.push_back(spent);
         if (script.keep) {

@@ -135,8 +135,8 @@ void Still::on_frame(const wire::Message& message, wire::Time now, std::vector<w
         progress_ = 1;
     }
     const auto mode = options_.stereo.mode();
-    picture_.image = mode ? image::composed(decoded->front(), decoded->back(), *mode)
-                          : std::move(decoded->front());
+    picture_.image =
+        mode ? image::composed(decoded->front(), decoded->back(), *mode) : std::move(decoded->front());
     times_.push_back({.load = load_seconds_,
                       .preprocess = 0,
                       .render = leaves.render_seconds(),

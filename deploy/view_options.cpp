@@ -36,7 +36,8 @@ void ViewOptions::add_picture_to(CLI::App& app) {
         ->capture_default_str()
         ->group(group);
     drawing.add_ways(app, group);
-    app.add_option("--crop", crop, "show these voxels only: the first and the last along x, y and z, from 0 on")
+    app.add_option("--crop", crop,
+                   "show these voxels only: the first and the last along x, y and z, from 0 on")
         ->expected(6)
         ->type_name("X0 X1 Y0 Y1 Z0 Z1")
         ->group(group);

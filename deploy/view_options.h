@@ -1,5 +1,6 @@
 #pragma once
-// The options of a still picture: camera, eyes, size, what is shown of the cube, quality, and how it is drawn.
+// The options of a still picture: camera, eyes, size, what is shown of the cube, quality, and how it is
+// drawn.
 
 #include <CLI/CLI.hpp>
 #include <optional>

@@ -283,8 +283,8 @@ void Session::send_view(wire::Time now) {
                           .stereo = fits ? wish_->stereo : std::nullopt,
                           .crop = is_of_cube ? wish_->crop : std::nullopt};
     effects_.push_back(wire::Send{link_, wire::message(wire::to_wire(view))});
-    sent_.push_back({revision_, view.size, view.stereo ? 2 : 1, view.quality, now,
-                     tree_.nodes.empty() || tree_.ready});
+    sent_.push_back(
+        {revision_, view.size, view.stereo ? 2 : 1, view.quality, now, tree_.nodes.empty() || tree_.ready});
     sent_at_ = now;
     unsent_ = false;
 }

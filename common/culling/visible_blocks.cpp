@@ -208,9 +208,9 @@ class FacePass {
                 const double middle = slab.middle - origin();
                 const Interval all = between(side, near, far);
                 const Interval by = kind_ == Kind::opof ? between(side, middle, middle) : all;
-                // No function is of lines that come in or go out by the sides of the cube, or of what is shown
-                // of it, nor by how much a ray's first or last sample in it is less than a step; and none of
-                // a part of a block.
+                // No function is of lines that come in or go out by the sides of the cube, or of what is
+                // shown of it, nor by how much a ray's first or last sample in it is less than a step; and
+                // none of a part of a block.
                 const Interval on = between(side, near - face_.sign * step_, far + face_.sign * step_);
                 const Run counted = run(by);
                 const bool inside = slab.thickness > 0 && std::min(on.lo, by.lo) >= begins_[a] &&
@@ -301,7 +301,7 @@ class FacePass {
     double depth_;  // that hides what is behind
     const std::array<float, 256>& rate_;
     BlockSet& visible_;
-    double step_;                 // at most from slice to slice, in voxels
+    double step_;                          // at most from slice to slice, in voxels
     std::array<double, 3> begins_, ends_;  // of what functions are of, in voxels
     std::array<Run, 3> whole_;             // blocks that are shown from end to end
     std::vector<Side> u_, v_;

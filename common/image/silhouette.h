@@ -1,5 +1,6 @@
 #pragma once
-// The outline of what is shown of the cube in a face's intermediate image. It is convex, so a row crosses it in one stretch.
+// The outline of what is shown of the cube in a face's intermediate image. It is convex, so a row crosses it
+// in one stretch.
 
 #include <vector>
 

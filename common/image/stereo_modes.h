@@ -29,10 +29,10 @@ view::ImageSize composed_size(const view::ImageSize& eye, StereoMode mode);
 // The pictures are of one size.
 //
 // Anaglyphs are Dubois' (2009, "Conversion of a stereo pair to anaglyph with the least-squares projection
-// method"): of all colours that can be shown, that is taken which, seen through both filters, comes nearest to
-// the pair as seen without. It takes from each channel what of it leaks through the wrong filter, and so has
-// the least ghosts of what colour keeps; half-colour and full-colour anaglyphs have more of them, grey ones no
-// colour. Light is mixed, not its codes: they are taken as sRGB.
+// method"): of all colours that can be shown, that is taken which, seen through both filters, comes nearest
+// to the pair as seen without. It takes from each channel what of it leaks through the wrong filter, and so
+// has the least ghosts of what colour keeps; half-colour and full-colour anaglyphs have more of them, grey
+// ones no colour. Light is mixed, not its codes: they are taken as sRGB.
 Image<Rgba8> composed(const Image<Rgba8>& left, const Image<Rgba8>& right, StereoMode mode);
 
 }  // namespace shearwater::image

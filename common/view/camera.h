@@ -50,7 +50,8 @@ struct Axes {
     Vec3 right, up, forward;
 };
 Axes axes_of(const Camera& camera);
-// World height of what the picture shows in the plane at so much depth, square to forward, in front of the eye.
+// World height of what the picture shows in the plane at so much depth, square to forward, in front of the
+// eye.
 double height_at(const Camera& camera, double depth);
 
 // The rays of a picture in world space: pixel (x, y)'s centre lies at (x + 0.5, y + 0.5).

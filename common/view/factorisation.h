@@ -107,9 +107,10 @@ struct Factorisation {
     double step(const Face& face, double i, double j) const;
 };
 
-// The faces that the picture needs, each just large enough for its part of the picture and of what is shown of
-// the cube, and one level of detail for all: that whose voxels are nearest to an intermediate pixel where they
-// are largest, unless what is shown is thinner than a few of its nodes. The camera, size and crop are valid.
+// The faces that the picture needs, each just large enough for its part of the picture and of what is shown
+// of the cube, and one level of detail for all: that whose voxels are nearest to an intermediate pixel where
+// they are largest, unless what is shown is thinner than a few of its nodes. The camera, size and crop are
+// valid.
 Factorisation factorise(const Camera& camera, const ImageSize& size, const Lattice& lattice,
                         const Sampling& sampling, const std::optional<volume::Box>& crop = {});
 // The same of the cameras of one frame, on one level of detail, the finest that one of them wants: what two
@@ -140,8 +141,8 @@ SliceRange slices_in_front(const Factorisation& factorisation, const Face& face,
 
 // Refuses a box to crop a cube of n voxels to that is not inside it, or has no thickness along some axis.
 base::Status validate_crop(const volume::Box& crop, const volume::Index3& n);
-// The box with its faces moved out to planes of a level's nodes, as far as the cube goes: between them a coarse
-// level has samples, however thin the box.
+// The box with its faces moved out to planes of a level's nodes, as far as the cube goes: between them a
+// coarse level has samples, however thin the box.
 volume::Box widened_to_nodes(const volume::Box& crop, int level, const volume::Index3& n);
 
 // The pixels of a face that rays through the (closed) box can reach: its window (DVR 3.4).

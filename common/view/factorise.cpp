@@ -272,9 +272,9 @@ double seen_from(double nearest, double eye, double least_slope, double greatest
     return nearest;
 }
 
-// How far from the eye the plane is, of what is shown of the cube, that lies so far from the nearest that a face sees (0) to the
-// farthest (1): from pixel to pixel are pitch times as many voxels. In a parallel view they are as many as
-// the pitch.
+// How far from the eye the plane is, of what is shown of the cube, that lies so far from the nearest that a
+// face sees (0) to the farthest (1): from pixel to pixel are pitch times as many voxels. In a parallel view
+// they are as many as the pitch.
 double spread_at(const Factorisation& factorisation, const Plan& plan, double farther) {
     const Face& face = plan.face;
     if (factorisation.projection == Projection::parallel) {

@@ -45,8 +45,8 @@ std::array<Camera, 2> eyes_of(const Camera& camera, const StereoSettings& settin
 // in pixels, of pictures of that height.
 double parallax(const Camera& camera, const StereoSettings& settings, double depth, const ImageSize& size);
 
-// Refuses what is below 0 or not finite, eyes too far apart for their convergence, and pictures that have more
-// than 2^25 pixels together. The camera and size are valid.
+// Refuses what is below 0 or not finite, eyes too far apart for their convergence, and pictures that have
+// more than 2^25 pixels together. The camera and size are valid.
 base::Status validate(const StereoSettings& settings, const Camera& camera, const ImageSize& size);
 
 }  // namespace shearwater::view

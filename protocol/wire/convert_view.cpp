@@ -85,7 +85,7 @@ Parsed<view::OpacityPin> opacity_pin_from(const pb::OpacityPin& pin) {
 }
 
 Parsed<std::optional<view::StereoSettings>> stereo_from(const pb::SetView& view, const view::Camera& camera,
-                                                       const view::ImageSize& size) {
+                                                        const view::ImageSize& size) {
     if (!view.has_stereo()) {
         return std::optional<view::StereoSettings>();
     }

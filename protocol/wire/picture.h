@@ -20,7 +20,7 @@ Message frame_message(pb::Frame frame, const view::ImageSize& size, int eyes, ba
 // The pictures of a Frame, of one eye or of two: as many and of the size that were asked for. Memory goes by
 // that, not by the sender's word.
 Parsed<std::vector<image::Image<image::Rgba8>>> pictures_from(const Message& message,
-                                                             const view::ImageSize& asked, int eyes);
+                                                              const view::ImageSize& asked, int eyes);
 // The picture where one was asked for.
 Parsed<image::Image<image::Rgba8>> picture_from(const Message& message, const view::ImageSize& asked);
 

@@ -32,9 +32,9 @@ struct Limits {
 
 // ---- jobs carried out away from the network's thread ----
 
-// A frame is one picture or two eyes', which are drawn, merged and warped as frames of their own: the first has
-// the frame's number, the second the next. Of each, all merges, one by one, with as much of the warp as each
-// allows; then
+// A frame is one picture or two eyes', which are drawn, merged and warped as frames of their own: the first
+// has the frame's number, the second the next. Of each, all merges, one by one, with as much of the warp as
+// each allows; then
 struct Lay {
     node::MergeJob merge;
     std::shared_ptr<const wire::View> view;

@@ -1,5 +1,6 @@
-// The head's frames: begun as clients' views come in, given up when nobody waits for them, merged, finished. A
-// frame is of one picture or of two eyes'; each is asked for and merged by itself, and they are sent together.
+// The head's frames: begun as clients' views come in, given up when nobody waits for them, merged, finished.
+// A frame is of one picture or of two eyes'; each is asked for and merged by itself, and they are sent
+// together.
 
 #include <algorithm>
 
@@ -22,8 +23,7 @@ std::pair<Head::FrameInWork*, Head::Eye*> Head::find_eye(std::uint64_t number) {
     }
     auto& [first, frame] = *std::prev(after);
     const std::uint64_t eye = number - first;
-    return eye < frame.eyes.size() ? std::pair(&frame, &frame.eyes[eye])
-                                   : std::pair<FrameInWork*, Eye*>();
+    return eye < frame.eyes.size() ? std::pair(&frame, &frame.eyes[eye]) : std::pair<FrameInWork*, Eye*>();
 }
 
 void Head::on_finished(Finished finished, wire::Time now, Effects& effects) {
@@ -106,8 +106,8 @@ std::vector<view::Factorisation> Head::factorise(const wire::View& view,
                                                  bool sketch) const {
     const view::Lattice& lattice = roster_.cube().lattice;
     const int sketch_level = roster_.cube().sketch_level;
-    const auto sampling = view::sampling(
-        view.quality, view.level_of_detail.value_or(limits_.level_of_detail), view.classify);
+    const auto sampling =
+        view::sampling(view.quality, view.level_of_detail.value_or(limits_.level_of_detail), view.classify);
     const auto crop = sketch && view.crop
                           ? std::optional(view::widened_to_nodes(*view.crop, sketch_level, lattice.n))
                           : view.crop;
@@ -151,8 +151,7 @@ void Head::begin_eyes(std::uint64_t number, FrameInWork& frame, const std::optio
                       wire::Time now, Effects& effects) {
     const wire::View& view = *frame.view;
     const auto factorisations = factorise(view, wire::cameras_of(view), frame.sketch);
-    const bool culled =
-        !sketch && can_cull(frame.client, view, factorisations.front().level());
+    const bool culled = !sketch && can_cull(frame.client, view, factorisations.front().level());
     for (std::size_t n = 0; n < frame.eyes.size(); ++n, ++number) {
         pb::Render render;
         if (sketch) {

@@ -24,8 +24,8 @@ class Pictures {
     // Merges bands into their frame's images, which begin with the first of them, and warps and codes what
     // they make possible. The view and the camera, that of the eye, are the same for all of a frame.
     void lay(node::MergeJob& job, const wire::View& view, const view::Camera& camera, base::Workers& workers);
-    // The pictures of so many frames in a row, whose last bands are laid, in run lengths, one below the other;
-    // with what they lack and what they cost together.
+    // The pictures of so many frames in a row, whose last bands are laid, in run lengths, one below the
+    // other; with what they lack and what they cost together.
     struct Picture {
         base::Buffer coded;
         node::Account account;

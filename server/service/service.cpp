@@ -56,9 +56,8 @@ void Service::finish(const head::Finish& job) {
     frame.set_sketch(job.sketch);
     node::put(picture.account.missing, *frame.mutable_missing());
     const wire::Time encode_begin = std::chrono::steady_clock::now();
-    wire::Message message =
-        wire::frame_message(std::move(frame), job.view->size, static_cast<int>(job.eyes),
-                            std::move(picture.coded), job.view->deflate);
+    wire::Message message = wire::frame_message(std::move(frame), job.view->size, static_cast<int>(job.eyes),
+                                                std::move(picture.coded), job.view->deflate);
     pb::FrameStats* const stats = std::get<pb::Frame>(message.body).mutable_stats();
     *stats->mutable_leaves() = picture.account.stats;
     stats->set_warp_seconds(picture.warp_seconds);

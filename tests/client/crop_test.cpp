@@ -48,8 +48,8 @@ TEST(Crop, FacesAreDraggedAlongTheirAxes) {
                 const view::Vec3 middle = middle_of(box, lattice, face);
                 view::Vec3 farther = middle;
                 farther[axis] += 0.25 * lattice.spacing[axis];
-                const view::Vec2 along = view::project(camera, size, farther).at -
-                                         view::project(camera, size, middle).at;
+                const view::Vec2 along =
+                    view::project(camera, size, farther).at - view::project(camera, size, middle).at;
                 EXPECT_NEAR(planes_dragged(box, lattice, face, camera, size, along), 0.25, 0.01);
                 EXPECT_NEAR(planes_dragged(box, lattice, face, camera, size, {-along.y, along.x}), 0, 0.01);
             }

@@ -52,8 +52,10 @@ TEST_F(Commands, PairsOfEyesAreTheSameWithAndWithoutDaemons) {
         EXPECT_TRUE(read);
         return read ? *std::move(read) : image::Image<image::Rgba8>();
     };
-    for (const auto& [mode, width, height] : {std::tuple("side-by-side", 240, 90), {"top-bottom", 120, 180},
-                                              {"anaglyph", 120, 90}, {"interlaced", 120, 90}}) {
+    for (const auto& [mode, width, height] : {std::tuple("side-by-side", 240, 90),
+                                              {"top-bottom", 120, 180},
+                                              {"anaglyph", 120, 90},
+                                              {"interlaced", 120, 90}}) {
         const std::string options = "--stereo " + std::string(mode) + " --eye-separation 4 --convergence 50 ";
         const auto single = picture(options + "--tree 1,1");
         const auto tree = picture(options + "--tree 2,3");

@@ -246,13 +246,14 @@ TEST(Simulation, CullingOverAnyStormOfDeathsEndsWhole) {
     }
 }
 
-// Both eyes arrive together, whole, whatever the order of events and whoever dies meanwhile, and nothing is left
-// behind of pairs that are given up.
+// Both eyes arrive together, whole, whatever the order of events and whoever dies meanwhile, and nothing is
+// left behind of pairs that are given up.
 TEST(Simulation, PairsOfEyesComeTogether) {
     Waves source(true);
     std::vector<image::Image<image::Rgba8>> first;
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
-        support::Simulation simulation(seed, *tree::full_tree(2, 2 + static_cast<int>(seed % 2)), cube, source);
+        support::Simulation simulation(seed, *tree::full_tree(2, 2 + static_cast<int>(seed % 2)), cube,
+                                       source);
         const std::vector<tree::Place> places = all_daemons(simulation);
         for (const tree::Place place : places) {
             simulation.start_daemon(place);

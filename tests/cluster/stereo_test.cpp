@@ -59,7 +59,8 @@ TEST_P(StereoTree, GivesEachEyeThePictureOfItsCamera) {
     EXPECT_GE(lit, 30);
 }
 
-// Both at once, as one frame, however many are asked for meanwhile; and one picture again when that is wanted.
+// Both at once, as one frame, however many are asked for meanwhile; and one picture again when that is
+// wanted.
 TEST_P(StereoTree, SendsBothEyesAsOneFrame) {
     wire::View view = support::twenty_views(single_->lattice()).front();
     const std::size_t before = client_->frames_received();

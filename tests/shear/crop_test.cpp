@@ -52,9 +52,10 @@ FloatCube part_of(const FloatCube& cube, const Box& box) {
 // The camera that sees a part, as a cube of its own, where the given one sees it in the cube.
 view::Camera seeing_part(const view::Camera& camera, const Lattice& lattice, const Box& box) {
     const Lattice part{box.plane_counts(), lattice.spacing};
-    const Vec3 away = lattice.world_from_voxel({static_cast<double>(box.lo[0]), static_cast<double>(box.lo[1]),
-                                                static_cast<double>(box.lo[2])}) -
-                      part.world_from_voxel({0, 0, 0});
+    const Vec3 away =
+        lattice.world_from_voxel({static_cast<double>(box.lo[0]), static_cast<double>(box.lo[1]),
+                                  static_cast<double>(box.lo[2])}) -
+        part.world_from_voxel({0, 0, 0});
     view::Camera moved = camera;
     moved.eye -= away;
     moved.target -= away;
@@ -179,9 +180,9 @@ TEST(Crop, KeepsOpacityByTheFormula) {
                 for (int y = 2; y < pixels - 2; ++y) {
                     for (int x = 2; x < pixels - 2; ++x) {
                         const double length = chord(x, y);
-                        const double change =
-                            std::max({std::abs(chord(x - 2, y) - length), std::abs(chord(x + 2, y) - length),
-                                      std::abs(chord(x, y - 2) - length), std::abs(chord(x, y + 2) - length)});
+                        const double change = std::max(
+                            {std::abs(chord(x - 2, y) - length), std::abs(chord(x + 2, y) - length),
+                             std::abs(chord(x, y - 2) - length), std::abs(chord(x, y + 2) - length)});
                         if (length > 4 && change < 0.05 * length) {
                             EXPECT_NEAR(drawn.picture.at(x, y).a / -std::expm1(-tau * length), 1, 0.01)
                                 << view.name << " at " << x << ", " << y;
@@ -231,9 +232,9 @@ TEST(Crop, IsValidated) {
     const Index3 small{10, 20, 30};
     EXPECT_TRUE(view::validate_crop({{0, 0, 0}, {9, 19, 29}}, small));
     EXPECT_TRUE(view::validate_crop({{4, 4, 4}, {5, 5, 5}}, small));
-    for (const Box& bad : {Box{{-1, 0, 0}, {9, 19, 29}}, Box{{0, 0, 0}, {10, 19, 29}},
-                           Box{{5, 0, 0}, {5, 19, 29}}, Box{{0, 12, 0}, {9, 11, 29}},
-                           Box{{0, 0, 0}, {9, 19, std::numeric_limits<std::int64_t>::max()}}}) {
+    for (const Box& bad :
+         {Box{{-1, 0, 0}, {9, 19, 29}}, Box{{0, 0, 0}, {10, 19, 29}}, Box{{5, 0, 0}, {5, 19, 29}},
+          Box{{0, 12, 0}, {9, 11, 29}}, Box{{0, 0, 0}, {9, 19, std::numeric_limits<std::int64_t>::max()}}}) {
         EXPECT_FALSE(view::validate_crop(bad, small)) << volume::to_string(bad);
     }
     EXPECT_EQ(view::widened_to_nodes({{3, 4, 5}, {4, 9, 29}}, 2, small), (Box{{0, 4, 4}, {4, 12, 29}}));

@@ -316,11 +316,10 @@ void Simulation::finish(const head::Finish& job) {
     frame.set_sketch(job.sketch);
     auto picture = pictures_.take(job.frame, job.eyes);
     node::put(picture.account.missing, *frame.mutable_missing());
-    perform(head_.handle(
-        head::Finished{job.frame,
-                       wire::frame_message(std::move(frame), job.view->size, static_cast<int>(job.eyes),
-                                           std::move(picture.coded), false)},
-        fabric_.now()));
+    perform(head_.handle(head::Finished{job.frame, wire::frame_message(std::move(frame), job.view->size,
+                                                                       static_cast<int>(job.eyes),
+                                                                       std::move(picture.coded), false)},
+                         fabric_.now()));
 }
 
 void Simulation::on_client_event(const wire::NetEvent& event) {

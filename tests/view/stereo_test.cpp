@@ -36,8 +36,7 @@ TEST(Project, InvertsTheRays) {
         const Rays rays = rays_of(camera, size);
         for (const Vec2 pixel : {Vec2(0, 0), Vec2(17.5, 150.25), Vec2(301, 200)}) {
             for (const double t : {1.0, 37.0, 400.0}) {
-                const Vec3 point =
-                    rays.origin_at(pixel.x, pixel.y) + t * rays.direction_at(pixel.x, pixel.y);
+                const Vec3 point = rays.origin_at(pixel.x, pixel.y) + t * rays.direction_at(pixel.x, pixel.y);
                 const Projected there = project(camera, size, point);
                 EXPECT_NEAR(there.at.x, pixel.x, 1e-9);
                 EXPECT_NEAR(there.at.y, pixel.y, 1e-9);
