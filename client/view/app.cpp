@@ -107,9 +107,11 @@ void App::collect() {
 // The picture, or both eyes' as one.
 void App::upload() {
     const model::Picture& seen = desk_.seen;
-    desk_.picture.upload(desk_.shown && !seen.right.empty()
-                             ? image::composed(seen.pixels, seen.right, *desk_.shown)
-                             : seen.pixels);
+    if (desk_.shown && !seen.right.empty()) {
+        desk_.picture.upload(image::composed(seen.pixels, seen.right, *desk_.shown));
+    } else {
+        desk_.picture.upload(seen.pixels);
+    }
 }
 
 void App::widgets() {
