@@ -89,7 +89,7 @@ std::optional<volume::Mapping> Head::sketch_for(const wire::View& view) const {
     return mapping_ ? mapping_ : sketch_;
 }
 
-// One that is merged is given to its client's link, whether that is there or not.
+// One that is merged goes on being finished, and what comes of it finds nobody.
 void Head::give_up(std::uint64_t number, const FrameInWork& frame, Effects& effects) {
     for (const Eye& eye : frame.eyes) {
         branch_.cancel(number, effects.net);
