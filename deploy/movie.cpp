@@ -41,8 +41,8 @@ std::string stamp_of(const std::string& path) {
 
 // Whatever the frames depend on, as a text.
 std::string description_of(const flight::Path& path, const Flags& flags) {
-    std::string text = fmt::format("# {}, {} quality", flags.view.size, flags.view.quality);
-    for (const std::string& word : flags.view.drawing.arguments()) {
+    std::string text = "#";
+    for (const std::string& word : flags.view.picture_arguments()) {
         text += " " + word;
     }
     for (const options::CubeOptions& cube : path.cubes) {
@@ -132,7 +132,7 @@ class Movie {
             .in_flight = 2,
             .shot = [&](int index, const view::Lattice& lattice) -> base::Result<flight::Shot> {
                 auto shot = flight::shot_at(path_, time_of(frames[static_cast<std::size_t>(index)]), lattice);
-                if (const auto valid = view::validate(shot.camera, *size); !valid) {
+                if (const auto valid = flags_.view.check(shot.camera); !valid) {
                     return valid.error();
                 }
                 return shot;

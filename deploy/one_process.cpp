@@ -49,6 +49,22 @@ base::Result<volume::Mapping> mapping_for(cube::Cube& opened, const options::Cub
     return mapping;
 }
 
+std::vector<view::Camera> eyes_of(const view::Camera& camera, const StereoOptions& stereo) {
+    if (!stereo.mode()) {
+        return {camera};
+    }
+    const auto pair = view::eyes_of(camera, stereo.eyes);
+    return {pair.begin(), pair.end()};
+}
+
+void add(const shear::RenderStats& part, shear::RenderStats& sum) {
+    sum.samples += part.samples;
+    sum.bricks_total += part.bricks_total;
+    sum.bricks_empty += part.bricks_empty;
+    sum.bricks_culled += part.bricks_culled;
+    sum.bricks_rendered += part.bricks_rendered;
+}
+
 }  // namespace
 
 base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const ViewOptions& view,
@@ -65,8 +81,9 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     const view::Lattice lattice{.n = opened->info.n, .spacing = cube.spacing_value()};
     const auto size = view.image_size();
     auto shot = script.shot(0, lattice);
-    if (!size || !shot) {
-        return size ? shot.error() : size.error();
+    const auto crop = view.crop_of(lattice);
+    if (!size || !shot || !crop) {
+        return !size ? size.error() : !shot ? shot.error() : crop.error();
     }
     double load = clock.lap();
     const double share = script.pictures > 1 ? 0.5 : 1;  // of the progress, for loading
@@ -101,27 +118,34 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
         }
         const view::TransferFunction& tf = shot->tf;
         clock.lap();
-        const auto factorisation = view::factorise(shot->camera, *size, lattice, view.sampling());
+        const std::vector<view::Camera> eyes = eyes_of(shot->camera, view.stereo);
+        const auto factorisations = view::factorise(eyes, *size, lattice, view.sampling(), *crop);
         if (culler) {
-            culler->prepare(tf, culling.kind, factorisation.level(), workers);
+            culler->prepare(tf, culling.kind, factorisations.front().level(), workers);
             preprocess += clock.lap();
         }
+        const auto& classification =
+            classifier.classify(*volume, tf, factorisations.front().classify, workers);
+        Seconds spent{.load = load, .preprocess = preprocess};
         shear::RenderStats stats;
-        const auto& classification = classifier.classify(*volume, tf, factorisation.classify, workers);
-        const auto visible =
-            culler ? std::optional(culler->visible(factorisation, tf, culling, workers)) : std::nullopt;
-        const auto windows = shear::render(*volume, classification, factorisation, workers, &stats, {},
-                                           visible ? &*visible : nullptr);
-        const double render = clock.lap();
-        picture.image = image::warp(factorisation, windows, shot->camera, *size, tf.background, workers);
-        const double warp = clock.lap();
-        times.push_back({.load = load,
-                         .preprocess = preprocess,
-                         .render = render,
-                         .composite = 0,
-                         .warp = warp,
-                         .encode = 0,
-                         .total = render + warp});
+        std::vector<image::Image<image::Rgba8>> pictures;
+        for (std::size_t eye = 0; eye < eyes.size(); ++eye) {
+            const auto& factorisation = factorisations[eye];
+            const auto visible =
+                culler ? std::optional(culler->visible(factorisation, tf, culling, workers)) : std::nullopt;
+            shear::RenderStats of_eye;
+            const auto windows = shear::render(*volume, classification, factorisation, workers, &of_eye, {},
+                                               visible ? &*visible : nullptr);
+            add(of_eye, stats);
+            spent.render += clock.lap();
+            pictures.push_back(image::warp(factorisation, windows, eyes[eye], *size, tf.background, workers));
+            spent.warp += clock.lap();
+        }
+        const auto mode = view.stereo.mode();
+        picture.image =
+            mode ? image::composed(pictures.front(), pictures.back(), *mode) : std::move(pictures.front());
+        spent.total = spent.render + spent.warp;
+        times.push_back(spent);
         if (script.keep) {
             if (const auto kept = script.keep(i, picture.image); !kept) {
                 return kept.error();

@@ -21,14 +21,15 @@ double seconds(wire::Time from, wire::Time to) {
 }  // namespace
 
 Still::Still(wire::Route server, const ViewOptions& options, view::ImageSize size, Script script)
-    : server_(std::move(server)), script_(std::move(script)) {
+    : server_(std::move(server)), options_(options), script_(std::move(script)) {
     to_ask_.resize(static_cast<std::size_t>(script_.pictures));
     std::iota(to_ask_.begin(), to_ask_.end(), 0);
     view_.size = size;
-    view_.quality = options.quality_value();
-    view_.level_of_detail = options.drawing.level_of_detail();
-    view_.classify = options.drawing.classification();
-    view_.culling = options.drawing.culling_settings();
+    view_.quality = options_.quality_value();
+    view_.level_of_detail = options_.drawing.level_of_detail();
+    view_.classify = options_.drawing.classification();
+    view_.culling = options_.drawing.culling_settings();
+    view_.stereo = options_.stereo.settings();
 }
 
 std::vector<wire::NetEffect> Still::start(wire::Time now) {
@@ -93,12 +94,14 @@ void Still::ask(wire::Time now, std::vector<wire::NetEffect>& effects) {
     const int picture = to_ask_.front();
     to_ask_.pop_front();
     auto shot = script_.shot(picture, *lattice_);
-    if (!shot) {
-        failed_ = shot.error();
+    const auto crop = options_.crop_of(*lattice_);
+    if (!shot || !crop) {
+        failed_ = shot ? crop.error() : shot.error();
         return;
     }
     view_.camera = shot->camera;
     view_.tf = std::move(shot->tf);
+    view_.crop = *crop;
     asked_.push_back({++view_.revision, picture, now});
     effects.emplace_back(wire::Send{server_link, wire::message(wire::to_wire(view_))});
 }
@@ -120,7 +123,7 @@ void Still::on_frame(const wire::Message& message, wire::Time now, std::vector<w
     if (frame.missing_size() > 0 || asked == asked_.end()) {
         return;  // the server sends it again when it is whole, if it is the newest
     }
-    auto decoded = wire::picture_from(message, view_.size);
+    auto decoded = wire::pictures_from(message, view_.size, view_.stereo ? 2 : 1);
     if (!decoded) {
         fail(base::Code::corrupt, decoded.error().text);
         return;
@@ -131,7 +134,9 @@ void Still::on_frame(const wire::Message& message, wire::Time now, std::vector<w
         load_seconds_ = seconds(started_, now) - frame.stats().warp_seconds() - leaves.render_seconds();
         progress_ = 1;
     }
-    picture_.image = *std::move(decoded);
+    const auto mode = options_.stereo.mode();
+    picture_.image =
+        mode ? image::composed(decoded->front(), decoded->back(), *mode) : std::move(decoded->front());
     times_.push_back({.load = load_seconds_,
                       .preprocess = 0,
                       .render = leaves.render_seconds(),

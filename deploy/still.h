@@ -37,6 +37,7 @@ class Still {
     void fail(base::Code code, std::string detail);
 
     wire::Route server_;
+    ViewOptions options_;
     Script script_;
     wire::View view_;         // the newest asked for
     std::deque<int> to_ask_;  // pictures

@@ -1,6 +1,8 @@
 #include "deploy/view_options.h"
 
+#include <algorithm>
 #include <charconv>
+#include <iterator>
 
 namespace shearwater::deploy {
 
@@ -34,6 +36,25 @@ void ViewOptions::add_picture_to(CLI::App& app) {
         ->capture_default_str()
         ->group(group);
     drawing.add_ways(app, group);
+    app.add_option("--crop", crop,
+                   "show these voxels only: the first and the last along x, y and z, from 0 on")
+        ->expected(6)
+        ->type_name("X0 X1 Y0 Y1 Z0 Z1")
+        ->group(group);
+    stereo.add_to(app, group);
+}
+
+std::vector<std::string> ViewOptions::picture_arguments() const {
+    std::vector<std::string> all{"--size", size, "--quality", quality};
+    for (const std::vector<std::string>& more : {drawing.arguments(), stereo.arguments()}) {
+        all.insert(all.end(), more.begin(), more.end());
+    }
+    if (!crop.empty()) {
+        all.emplace_back("--crop");
+        std::ranges::transform(crop, std::back_inserter(all),
+                               [](std::int64_t voxel) { return std::to_string(voxel); });
+    }
+    return all;
 }
 
 base::Result<view::ImageSize> ViewOptions::image_size() const {
@@ -55,17 +76,36 @@ view::Quality ViewOptions::quality_value() const {
                                : view::Quality::normal;
 }
 
-base::Result<view::Camera> ViewOptions::camera(const view::Lattice& lattice) const {
+base::Status ViewOptions::check(const view::Camera& camera) const {
     const auto pixels = image_size();
     if (!pixels) {
         return pixels.error();
     }
+    if (auto valid = view::validate(camera, *pixels); !valid) {
+        return valid;
+    }
+    const auto eyes = stereo.settings();
+    return eyes ? view::validate(*eyes, camera, *pixels) : base::Status{};
+}
+
+base::Result<view::Camera> ViewOptions::camera(const view::Lattice& lattice) const {
     const view::Camera made = view::camera_on(
         orbit, lattice, parallel ? view::Projection::parallel : view::Projection::perspective, fov, height);
-    if (const auto valid = view::validate(made, *pixels); !valid) {
+    if (const auto valid = check(made); !valid) {
         return valid.error();
     }
     return made;
+}
+
+base::Result<std::optional<volume::Box>> ViewOptions::crop_of(const view::Lattice& lattice) const {
+    if (crop.size() != 6) {
+        return std::optional<volume::Box>();
+    }
+    const volume::Box box{{crop[0], crop[2], crop[4]}, {crop[1], crop[3], crop[5]}};
+    if (const auto valid = view::validate_crop(box, lattice.n); !valid) {
+        return valid.error();
+    }
+    return std::optional(box);
 }
 
 }  // namespace shearwater::deploy

@@ -1,12 +1,16 @@
 #pragma once
-// The options of a still picture: camera, size, quality, and how it is drawn.
+// The options of a still picture: camera, eyes, size, what is shown of the cube, quality, and how it is
+// drawn.
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "common/base/result.h"
 #include "common/options/drawing_options.h"
 #include "common/view/camera.h"
+#include "deploy/stereo_options.h"
 
 namespace shearwater::deploy {
 
@@ -18,10 +22,14 @@ struct ViewOptions {
     std::string size = "512x512";
     std::string quality = "normal";
     options::DrawingOptions drawing;
+    StereoOptions stereo;
+    std::vector<std::int64_t> crop;  // first and last voxel along each axis; empty: the whole cube
 
-    // All of them; or size, quality and ways of drawing alone.
+    // All of them; or those that do not say from where, nor by which transfer function.
     void add_to(CLI::App& app);
     void add_picture_to(CLI::App& app);
+    // The latter, as they are given.
+    std::vector<std::string> picture_arguments() const;
 
     // Whatever can be wrong before the cube is known.
     base::Result<view::ImageSize> image_size() const;
@@ -31,8 +39,12 @@ struct ViewOptions {
         return view::sampling(quality_value(), drawing.level_of_detail().value_or(true),
                               drawing.classification());
     }
+    // Whether a picture can be taken so by a camera, and by the eyes beside it.
+    base::Status check(const view::Camera& camera) const;
     // The camera for a cube, checked.
     base::Result<view::Camera> camera(const view::Lattice& lattice) const;
+    // What of a cube is shown, checked.
+    base::Result<std::optional<volume::Box>> crop_of(const view::Lattice& lattice) const;
 };
 
 }  // namespace shearwater::deploy

@@ -176,9 +176,9 @@ void Session::on_frame(const wire::Received& received, wire::Time now) {
     if (!missing) {
         return give_up(missing.error(), now);
     }
-    auto pixels = wire::picture_from(message, sent->size);
-    if (!pixels) {
-        return give_up(pixels.error(), now);
+    auto eyes = wire::pictures_from(message, sent->size, sent->eyes);
+    if (!eyes) {
+        return give_up(eyes.error(), now);
     }
     const Seconds latency = now - sent->at;
     const double server_seconds = std::max(0.0, frame.stats().total_seconds());
@@ -202,7 +202,10 @@ void Session::on_frame(const wire::Received& received, wire::Time now) {
         .server_seconds = server_seconds,
         .opaque_bricks = leaves.bricks_total() - std::min(leaves.bricks_total(), leaves.bricks_empty()),
         .culled_bricks = leaves.bricks_culled()};
-    picture_ = Picture{sent->revision, sent->quality, frame_->missing.empty(), std::move(*pixels)};
+    picture_ = Picture{sent->revision, sent->quality, frame_->missing.empty(), std::move(eyes->front()), {}};
+    if (sent->eyes > 1) {
+        picture_->right = std::move(eyes->back());
+    }
     retry_after_ = first_retry;
     ready_at_frame_ = tree_.in_phase(pb::PHASE_READY);
     forget_older_than(frame.revision());
@@ -278,8 +281,11 @@ void Session::send_view(wire::Time now) {
                                      ? link_gauge_.size_at_rate(wish_->size, pace_.effort().target_rate)
                                      : wish_->size;
     small_ = size != wish_->size;
+    const view::Camera seen = camera(wish_->viewpoint, cube_->lattice);
+    const bool fits = wish_->stereo && view::validate(*wish_->stereo, seen, size);
+    const bool is_of_cube = wish_->crop && view::validate_crop(*wish_->crop, cube_->lattice.n);
     const wire::View view{.revision = ++revision_,
-                          .camera = camera(wish_->viewpoint, cube_->lattice),
+                          .camera = seen,
                           .size = size,
                           .tf = wish_->tf,
                           .quality = quality_,
@@ -287,10 +293,12 @@ void Session::send_view(wire::Time now) {
                           .level_of_detail = wish_->level_of_detail,
                           .sketch = true,
                           .classify = wish_->classify,
-                          .culling = wish_->culling};
+                          .culling = wish_->culling,
+                          .stereo = fits ? wish_->stereo : std::nullopt,
+                          .crop = is_of_cube ? wish_->crop : std::nullopt};
     effects_.push_back(wire::Send{link_, wire::message(wire::to_wire(view))});
-    sent_.push_back(
-        {revision_, view.size, view.quality, view.deflate, now, tree_.nodes.empty() || tree_.ready});
+    sent_.push_back({revision_, view.size, view.stereo ? 2 : 1, view.quality, view.deflate, now,
+                     tree_.nodes.empty() || tree_.ready});
     sent_at_ = now;
     unsent_ = false;
 }

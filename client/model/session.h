@@ -20,6 +20,7 @@
 #include "client/model/status.h"
 #include "client/model/viewpoint.h"
 #include "common/culling/settings.h"
+#include "common/view/stereo.h"
 #include "common/view/transfer_function.h"
 #include "protocol/wire/events.h"
 #include "protocol/wire/header.h"
@@ -34,6 +35,8 @@ struct Wish {
     std::optional<bool> level_of_detail;  // else as the server has it
     view::Classify classify = view::Classify::post;
     culling::Settings culling;
+    std::optional<view::StereoSettings> stereo;  // a pair of pictures of that size
+    std::optional<volume::Box> crop;             // of the cube; one of another cube's counts for nothing
     bool operator==(const Wish&) const = default;
 };
 
@@ -77,6 +80,7 @@ class Session {
     struct Sent {
         std::uint64_t revision;
         view::ImageSize size;
+        int eyes;
         view::Quality quality;
         bool deflated;
         wire::Time at;

@@ -95,7 +95,8 @@ struct Picture {
     std::uint64_t revision = 0;
     view::Quality quality = view::Quality::normal;
     bool whole = true;
-    image::Image<image::Rgba8> pixels;
+    image::Image<image::Rgba8> pixels;  // of two eyes: the left one's
+    image::Image<image::Rgba8> right;   // empty: it is one picture
 };
 
 }  // namespace shearwater::model

@@ -3,6 +3,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "client/model/look.h"
 #include "client/view/panel.h"
@@ -89,14 +90,27 @@ void App::collect() {
                                                        known_lattice_->spacing != desk_.lattice().spacing);
             if (is_another) {
                 desk_.reset_view();
+                desk_.wish.crop.reset();
+                desk_.eyes = {};
             }
             known_lattice_ = desk_.lattice();
         }
     }
     if (mail.picture) {
-        desk_.picture.upload(mail.picture->pixels);
-        desk_.picture_revision = mail.picture->revision;
-        desk_.picture_quality = mail.picture->quality;
+        desk_.seen = std::move(*mail.picture);
+        desk_.picture_revision = desk_.seen.revision;
+        desk_.picture_quality = desk_.seen.quality;
+        upload();
+    }
+}
+
+// The picture, or both eyes' as one.
+void App::upload() {
+    const model::Picture& seen = desk_.seen;
+    if (desk_.shown && !seen.right.empty()) {
+        desk_.picture.upload(image::composed(seen.pixels, seen.right, *desk_.shown));
+    } else {
+        desk_.picture.upload(seen.pixels);
     }
 }
 
@@ -105,6 +119,9 @@ void App::widgets() {
     desk_.dragging = false;
     desk_.retry = false;
     desk_.escape = false;
+    if (std::exchange(desk_.reshown, false) && !desk_.seen.pixels.empty()) {
+        upload();
+    }
     const ImVec2 all = ImGui::GetIO().DisplaySize;
     const float panel_size = desk_.panel ? std::min(desk_.px(panel_width), all.x / 2) : 0;
     const float status_size = desk_.px(status_height);
@@ -203,6 +220,7 @@ void App::send_wish() {
         sent_effort_ = desk_.effort;
         network_.set_effort(sent_effort_);
     }
+    desk_.wish.stereo = desk_.shown ? std::optional(desk_.eyes) : std::nullopt;
     if (desk_.wish != sent_) {
         sent_ = desk_.wish;
         network_.want(sent_, desk_.dragging ? model::Change::dragging : model::Change::single);
@@ -212,10 +230,12 @@ void App::send_wish() {
 // The newest view is seen, whole and as good as it gets.
 bool App::is_settled() const {
     const model::Status& status = desk_.status;
+    const view::ImageSize wanted =
+        desk_.shown ? image::composed_size(desk_.wish.size, *desk_.shown) : desk_.wish.size;
     return status.connection == model::Connection::connected && status.frame &&
            status.frame->missing.empty() && !status.frame->sketch && desk_.picture_revision == status.sent &&
-           desk_.picture_quality == desk_.best_quality() && desk_.picture.width() == desk_.wish.size.width &&
-           desk_.picture.height() == desk_.wish.size.height;
+           desk_.picture_quality == desk_.best_quality() && desk_.picture.width() == wanted.width &&
+           desk_.picture.height() == wanted.height;
 }
 
 }  // namespace shearwater::ui

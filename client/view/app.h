@@ -29,6 +29,7 @@ class App {
   private:
     double patience() const;
     void collect();
+    void upload();
     void widgets();
     void keys();
     void on_key(const KeyPress& press);

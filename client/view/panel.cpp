@@ -17,6 +17,8 @@ void panel(Desk& desk, ImVec2 from, ImVec2 size) {
     camera_section(desk);
     colour_section(desk);
     speed_section(desk);
+    crop_section(desk);
+    stereo_section(desk);
     tree_list(desk);
     ImGui::End();
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "client/view/axes.h"
+#include "client/view/box_edges.h"
+#include "client/view/crop_handles.h"
 #include "client/view/notices.h"
 #include "client/view/widgets.h"
 
@@ -17,10 +19,10 @@ constexpr ImGuiWindowFlags bare = ImGuiWindowFlags_NoDecoration | ImGuiWindowFla
                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
                                   ImGuiWindowFlags_NoBringToFrontOnFocus;
 
-// The display's pixels of a size in window coordinates, brought within what may be asked for.
-view::ImageSize picture_size(ImVec2 size) {
+// The display's pixels of a size in window coordinates, brought within what may be asked for, of one eye.
+view::ImageSize picture_size(ImVec2 size, const Shown& shown) {
     constexpr int max_side = 8192;
-    constexpr double max_area = double{1 << 25};
+    const double max_area = double{1 << 25} / (shown ? 2 : 1);
     const ImVec2 per_point = ImGui::GetIO().DisplayFramebufferScale;
     double width = std::clamp(std::floor(double{size.x} * double{per_point.x}), 16.0, double{max_side});
     double height = std::clamp(std::floor(double{size.y} * double{per_point.y}), 16.0, double{max_side});
@@ -71,19 +73,34 @@ void drag(Desk& desk, float to_pixels) {
     desk.dragging = true;
 }
 
-void wheel(Desk& desk, ImVec2 from, float to_pixels) {
+void wheel(Desk& desk, const std::vector<EyeArea>& areas) {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.MouseWheel == 0) {
         return;
     }
     constexpr double per_notch = 0.88;
-    model::zoom(desk.wish.viewpoint, std::pow(per_notch, static_cast<double>(io.MouseWheel)),
-                static_cast<double>((io.MousePos.x - from.x) * to_pixels),
-                static_cast<double>((io.MousePos.y - from.y) * to_pixels), desk.wish.size, desk.lattice());
+    const auto under = std::ranges::find_if(areas, [&](const EyeArea& a) { return a.contains(io.MousePos); });
+    const EyeArea& area = under != areas.end() ? *under : areas.front();
+    const view::Vec2 at = area.to_pixels(io.MousePos, desk.wish.size);
+    model::zoom(desk.wish.viewpoint, std::pow(per_notch, static_cast<double>(io.MouseWheel)), at.x, at.y,
+                desk.wish.size, desk.lattice());
     desk.dragging = true;
 }
 
-void mouse(Desk& desk, ImVec2 from, ImVec2 size) {
+// What is drawn over the picture where the box is cropped that it shows.
+void crop_over_picture(Desk& desk, const std::vector<EyeArea>& areas) {
+    if (!desk.cropping || !desk.has_cube() || desk.picture.empty()) {
+        return;
+    }
+    const view::Camera camera = model::camera(desk.wish.viewpoint, desk.lattice());
+    const std::vector<view::Camera> eyes = cameras_of_areas(desk.shown, camera, desk.eyes);
+    for (std::size_t n = 0; n < eyes.size(); ++n) {
+        draw_box_edges(desk, areas[n], eyes[n]);
+        crop_handles(desk, areas[n], eyes[n], static_cast<int>(n));
+    }
+}
+
+void mouse(Desk& desk, const std::vector<EyeArea>& areas, ImVec2 from, ImVec2 size) {
     ImGui::SetCursorScreenPos(from);
     ImGui::InvisibleButton("picture", size,
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
@@ -91,13 +108,13 @@ void mouse(Desk& desk, ImVec2 from, ImVec2 size) {
     if (!desk.has_cube()) {
         return;
     }
-    const float to_pixels = static_cast<float>(desk.wish.size.width) / size.x;
+    const float to_pixels = static_cast<float>(desk.wish.size.width) / areas.front().size.x;
     // In the pass that presses the button the mouse may have come from afar.
     if (ImGui::IsItemActive() && !ImGui::IsItemActivated()) {
         drag(desk, to_pixels);
     }
     if (ImGui::IsItemHovered()) {
-        wheel(desk, from, to_pixels);
+        wheel(desk, areas);
         if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
             desk.reset_view();
         }
@@ -155,7 +172,8 @@ float view_line(const Desk& desk, float right, float y) {
 }  // namespace
 
 void picture_area(Desk& desk, ImVec2 from, ImVec2 size) {
-    const view::ImageSize pixels = picture_size(size);
+    const std::vector<EyeArea> areas = eye_areas(desk.shown, from, size);
+    const view::ImageSize pixels = picture_size(areas.front().size, desk.shown);
     desk.dragging = desk.dragging || (pixels != desk.wish.size && !desk.picture.empty());
     desk.wish.size = pixels;
     ImGui::SetNextWindowPos(from);
@@ -164,7 +182,8 @@ void picture_area(Desk& desk, ImVec2 from, ImVec2 size) {
     ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::backdrop);
     ImGui::Begin("picture area", nullptr, bare | ImGuiWindowFlags_NoScrollWithMouse);
     draw_picture(desk, from, size);
-    mouse(desk, from, size);
+    crop_over_picture(desk, areas);
+    mouse(desk, areas, from, size);
     if (!desk.picture.empty()) {
         const float inset = desk.px(axes_radius + 14);
         draw_axes(desk, {from.x + inset, from.y + size.y - inset});

@@ -12,5 +12,9 @@ void camera_section(Desk& desk);
 void colour_section(Desk& desk);
 // Quality, culling, and how fast frames come.
 void speed_section(Desk& desk);
+// Which voxels are shown.
+void crop_section(Desk& desk);
+// A pair of pictures, for two eyes.
+void stereo_section(Desk& desk);
 
 }  // namespace shearwater::ui

@@ -31,6 +31,7 @@ struct Slab {
 struct Run {
     std::int32_t first, last;
     bool empty() const { return last < first; }
+    bool contains(std::int64_t block) const { return first <= block && block <= last; }
 };
 // What a beam crosses of a slab along u or v.
 struct Crossing {
@@ -55,10 +56,16 @@ class FacePass {
           rate_(rates.rate),
           visible_(visible),
           step_(std::max(factorisation.slice_pitch(), 1.0)) {
+        const volume::Box shown = factorisation.shown();
         for (std::size_t a = 0; a < 3; ++a) {
             // Cells across the cube's end, of whichever size, are left out.
             const std::int64_t cell = std::max<std::int64_t>(std::int64_t{1} << factorisation.level(), 4);
-            ends_[a] = static_cast<double>((factorisation.lattice.n[a] - 1) / cell * cell);
+            const std::int64_t last = factorisation.lattice.n[a] - 1;
+            begins_[a] = static_cast<double>(shown.lo[a]);
+            ends_[a] = static_cast<double>(std::min(last / cell * cell, shown.hi[a]));
+            const std::int64_t whole_end = shown.hi[a] == last ? grid.counts()[a] : shown.hi[a] / grid.edge();
+            whole_[a] = {static_cast<std::int32_t>((shown.lo[a] + grid.edge() - 1) / grid.edge()),
+                         static_cast<std::int32_t>(whole_end - 1)};
         }
         const int pixels = std::max((std::max(face.width, face.height) + most_beams - 1) / most_beams, 1);
         u_ = sides(face.u_axis(), face.origin.x, face.pitch.x, face.width, pixels);
@@ -111,7 +118,7 @@ class FacePass {
             slab.near = face_.sign > 0 ? lo : hi;
             slab.far = face_.sign > 0 ? hi : lo;
             slab.middle = lo + edge / 2;
-            slab.thickness = hi - lo;
+            slab.thickness = whole_[static_cast<std::size_t>(face_.axis)].contains(slab.block) ? hi - lo : 0;
             if (perspective()) {
                 const double eye = f_.eye[face_.axis];
                 if ((slab.far - eye) * face_.sign <= 0) {
@@ -201,14 +208,17 @@ class FacePass {
                 const double middle = slab.middle - origin();
                 const Interval all = between(side, near, far);
                 const Interval by = kind_ == Kind::opof ? between(side, middle, middle) : all;
-                // No function is of lines that come in or go out by the cube's sides, nor by how much a ray's
-                // first or last sample in it is less than a step.
+                // No function is of lines that come in or go out by the sides of the cube, or of what is
+                // shown of it, nor by how much a ray's first or last sample in it is less than a step; and
+                // none of a part of a block.
                 const Interval on = between(side, near - face_.sign * step_, far + face_.sign * step_);
-                const bool inside =
-                    slab.thickness > 0 && std::min(on.lo, by.lo) >= 0 && std::max(on.hi, by.hi) < ends_[a];
+                const Run counted = run(by);
+                const bool inside = slab.thickness > 0 && std::min(on.lo, by.lo) >= begins_[a] &&
+                                    std::max(on.hi, by.hi) < ends_[a] && whole_[a].contains(counted.first) &&
+                                    whole_[a].contains(counted.last);
                 const Run met = run(all);
                 crossings.push_back(
-                    {{std::max(met.first, 0), std::min(met.last, last)}, inside ? run(by) : Run{0, -1}});
+                    {{std::max(met.first, 0), std::min(met.last, last)}, inside ? counted : Run{0, -1}});
             }
         }
         return crossings;
@@ -291,8 +301,9 @@ class FacePass {
     double depth_;  // that hides what is behind
     const std::array<float, 256>& rate_;
     BlockSet& visible_;
-    double step_;                 // at most from slice to slice, in voxels
-    std::array<double, 3> ends_;  // of what functions are of, in voxels
+    double step_;                          // at most from slice to slice, in voxels
+    std::array<double, 3> begins_, ends_;  // of what functions are of, in voxels
+    std::array<Run, 3> whole_;             // blocks that are shown from end to end
     std::vector<Side> u_, v_;
     std::vector<Slab> slabs_;
     std::vector<Crossing> u_crossings_, v_crossings_;  // of a side's slabs, one side after the other

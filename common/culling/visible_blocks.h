@@ -38,7 +38,8 @@ struct BlockRates {
     std::array<float, 256> rate;
 };
 
-// The rates are of the functions that the settings' kind goes by, which is not off.
+// The rates are of the functions that the settings' kind goes by, which is not off. Of a cropped cube only
+// blocks that are shown from end to end hide anything.
 BlockSet visible_blocks(const view::Factorisation& factorisation, const BlockGrid& grid,
                         const BlockRates& rates, const Settings& settings, base::Workers& workers);
 

@@ -11,13 +11,13 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Stretch nothing{infinity, -infinity};
 
-// Where start + slope * w is within [0, last].
-Stretch within(double start, double slope, double last) {
+// Where start + slope * w is within [side.lo, side.hi].
+Stretch within(double start, double slope, const Stretch& side) {
     if (slope == 0) {
-        return start >= 0 && start <= last ? Stretch{-infinity, infinity} : nothing;
+        return side.contains(start) ? Stretch{-infinity, infinity} : nothing;
     }
-    const double a = (0 - start) / slope;
-    const double b = (last - start) / slope;
+    const double a = (side.lo - start) / slope;
+    const double b = (side.hi - start) / slope;
     return {std::min(a, b), std::max(a, b)};
 }
 
@@ -31,8 +31,10 @@ Silhouette::Silhouette(const view::Factorisation& factorisation, const view::Fac
 }
 
 Stretch Silhouette::row(double j) const {
-    const auto last = [&](int axis) {
-        return static_cast<double>(factorisation_.lattice.n[static_cast<std::size_t>(axis)] - 1);
+    const volume::Box shown = factorisation_.shown();
+    const auto sides = [&](int axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        return Stretch{static_cast<double>(shown.lo[a]), static_cast<double>(shown.hi[a])};
     };
     const bool perspective = factorisation_.projection == view::Projection::perspective;
     const int u = face_.u_axis();
@@ -41,20 +43,20 @@ Stretch Silhouette::row(double j) const {
     const double at_v = face_.origin.y + j * face_.pitch.y;
 
     // The part of the row's rays, as a stretch of w, that is in front of the eye and inside along v and w.
-    Stretch w = perspective ? within(factorisation_.eye[v] - at_v * eye_w, at_v, last(v))
+    Stretch w = perspective ? within(factorisation_.eye[v] - at_v * eye_w, at_v, sides(v))
                             : within(at_v, factorisation_.direction[v] / factorisation_.direction[face_.axis],
-                                     last(v));
-    w = {std::max(w.lo, 0.0), std::min(w.hi, last(face_.axis))};
+                                     sides(v));
+    w = {std::max(w.lo, sides(face_.axis).lo), std::min(w.hi, sides(face_.axis).hi)};
     if (perspective) {
         (face_.sign > 0 ? w.lo : w.hi) = face_.sign > 0 ? std::max(w.lo, eye_w) : std::min(w.hi, eye_w);
     }
     if (w.hi < w.lo) {
         return nothing;
     }
-    // The cube's two sides along u, seen at both ends of it.
+    // The two sides along u, seen at both ends of it.
     Stretch at_u = nothing;
     for (const double end : {w.lo, w.hi}) {
-        for (const double side : {0.0, last(u)}) {
+        for (const double side : {sides(u).lo, sides(u).hi}) {
             double place = side - factorisation_.direction[u] / factorisation_.direction[face_.axis] * end;
             if (perspective) {
                 // Next to the eye itself a side is seen at any slope.

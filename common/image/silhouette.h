@@ -1,5 +1,6 @@
 #pragma once
-// The cube's outline in a face's intermediate image. It is convex, so a row crosses it in one stretch.
+// The outline of what is shown of the cube in a face's intermediate image. It is convex, so a row crosses it
+// in one stretch.
 
 #include <vector>
 
@@ -7,7 +8,7 @@
 
 namespace shearwater::image {
 
-// Pixels i of a row, fractional, whose rays meet the cube; none where hi < lo.
+// Pixels i of a row, fractional, whose rays meet it; none where hi < lo.
 struct Stretch {
     double lo, hi;
     bool contains(double i) const { return lo <= i && i <= hi; }

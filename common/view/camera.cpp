@@ -13,17 +13,6 @@ constexpr double radians(double degrees) {
     return degrees * std::numbers::pi / 180;
 }
 
-// Right, up and forward of a camera, each of unit length and square to the others.
-struct Frame {
-    Vec3 right, up, forward;
-};
-
-Frame frame_of(const Camera& camera) {
-    const Vec3 forward = glm::normalize(camera.target - camera.eye);
-    const Vec3 right = glm::normalize(glm::cross(forward, camera.up));
-    return {right, glm::cross(right, forward), forward};
-}
-
 bool finite(const Vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -53,20 +42,30 @@ Camera camera_on(const Orbit& orbit, const Lattice& lattice, Projection projecti
     return camera;
 }
 
+Axes axes_of(const Camera& camera) {
+    const Vec3 forward = glm::normalize(camera.target - camera.eye);
+    const Vec3 right = glm::normalize(glm::cross(forward, camera.up));
+    return {right, glm::cross(right, forward), forward};
+}
+
+double height_at(const Camera& camera, double depth) {
+    return camera.projection == Projection::perspective ? 2 * depth * std::tan(0.5 * radians(camera.fov))
+                                                        : camera.height;
+}
+
 Rays rays_of(const Camera& camera, const ImageSize& size) {
-    const Frame frame = frame_of(camera);
+    const Axes axes = axes_of(camera);
     const bool perspective = camera.projection == Projection::perspective;
-    const double picture_height = perspective ? 2 * std::tan(0.5 * radians(camera.fov)) : camera.height;
-    const double pixel = picture_height / size.height;
-    const Vec3 step_x = pixel * frame.right;
-    const Vec3 step_y = -pixel * frame.up;
+    const double pixel = height_at(camera, 1) / size.height;
+    const Vec3 step_x = pixel * axes.right;
+    const Vec3 step_y = -pixel * axes.up;
     const Vec3 corner = -0.5 * size.width * step_x - 0.5 * size.height * step_y;
 
     Rays rays{.projection = camera.projection,
               .origin = camera.eye,
               .origin_x = Vec3(0),
               .origin_y = Vec3(0),
-              .dir = frame.forward,
+              .dir = axes.forward + camera.slant.x * axes.right + camera.slant.y * axes.up,
               .dir_x = Vec3(0),
               .dir_y = Vec3(0)};
     if (perspective) {
@@ -107,6 +106,9 @@ base::Status validate(const Camera& camera, const ImageSize& size) {
     }
     if (!finite(camera.eye) || !finite(camera.target) || !finite(camera.up)) {
         return refuse("the eye, the target and the up direction have to be finite");
+    }
+    if (!(glm::length(camera.slant) <= Camera::max_slant)) {
+        return refuse("the picture's middle is too far off the camera's axis");
     }
     const Vec3 sight = camera.target - camera.eye;
     const double distance = glm::length(sight);

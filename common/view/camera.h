@@ -1,5 +1,10 @@
 #pragma once
 // The camera of design section 3: x to the right, y up, row 0 of the picture on top.
+//
+// The projection plane is square to the line from the eye to the target. The ray of the picture's middle goes
+// along that line, or, off its axis, along  forward + slant.x * right + slant.y * up:  in perspective the
+// picture's middle is shifted in the projection plane by so much of the plane's distance (an asymmetric
+// frustum), in a parallel view all rays meet the plane aslant (a sheared one).
 
 #include "common/base/result.h"
 #include "common/view/geometry.h"
@@ -21,7 +26,9 @@ struct Camera {
     Projection projection = Projection::perspective;
     double fov = 30;    // vertical field of view in degrees, perspective only
     double height = 1;  // world height of the picture, parallel only
+    Vec2 slant{0, 0};   // of the picture's middle: tangents, at most max_slant long
 
+    static constexpr double max_slant = 10;
     bool operator==(const Camera&) const = default;
 };
 
@@ -37,6 +44,15 @@ struct Orbit {
 // distance = (diagonal / 2) / sin(fov / 2), height = diagonal.
 Camera camera_on(const Orbit& orbit, const Lattice& lattice, Projection projection = Projection::perspective,
                  double fov = 30, double height = 0);
+
+// Directions of a valid camera's picture in world space, each of unit length and square to the others.
+struct Axes {
+    Vec3 right, up, forward;
+};
+Axes axes_of(const Camera& camera);
+// World height of what the picture shows in the plane at so much depth, square to forward, in front of the
+// eye.
+double height_at(const Camera& camera, double depth);
 
 // The rays of a picture in world space: pixel (x, y)'s centre lies at (x + 0.5, y + 0.5).
 // perspective: a ray starts at `origin` and goes along dir + px * dir_x + py * dir_y;
@@ -55,7 +71,7 @@ Rays rays_of(const Camera& camera, const ImageSize& size);
 Rays in_voxel_space(const Rays& world, const Lattice& lattice);
 
 // Refuses what is not finite, a fov outside (0, 180), a height or size out of range (at most 8192 pixels
-// a side and 2^25 in all), an eye on its target, and an up along the line of sight.
+// a side and 2^25 in all), an eye on its target, an up along the line of sight, and too long a slant.
 base::Status validate(const Camera& camera, const ImageSize& size);
 
 }  // namespace shearwater::view

@@ -150,6 +150,35 @@ Rect window_of(const Factorisation& factorisation, const Face& face, const volum
     return window.empty() ? Rect{} : window;
 }
 
+base::Status validate_crop(const volume::Box& crop, const volume::Index3& n) {
+    const auto refuse_crop = [](std::string detail) {
+        return base::error(base::Code::invalid_argument, "crop the cube", std::move(detail));
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        if (crop.lo[a] < 0 || crop.hi[a] > n[a] - 1) {
+            return refuse_crop("voxels " + std::to_string(crop.lo[a]) + " to " + std::to_string(crop.hi[a]) +
+                               " along axis " + std::to_string(axis + 1) + " are not within 0 to " +
+                               std::to_string(n[a] - 1));
+        }
+        if (crop.lo[a] >= crop.hi[a]) {
+            return refuse_crop("at least two voxels are wanted along axis " + std::to_string(axis + 1) +
+                               ", the lower index first");
+        }
+    }
+    return {};
+}
+
+volume::Box widened_to_nodes(const volume::Box& crop, int level, const volume::Index3& n) {
+    const std::int64_t pitch = std::int64_t{1} << level;
+    volume::Box wide = crop;
+    for (std::size_t a = 0; a < 3; ++a) {
+        wide.lo[a] = crop.lo[a] / pitch * pitch;
+        wide.hi[a] = std::min((crop.hi[a] + pitch - 1) / pitch * pitch, n[a] - 1);
+    }
+    return wide;
+}
+
 base::Status validate(const Factorisation& factorisation) {
     const Lattice& lattice = factorisation.lattice;
     const bool spaced =
@@ -160,6 +189,11 @@ base::Status validate(const Factorisation& factorisation) {
     }
     if (!finite(factorisation.eye) || !finite(factorisation.direction)) {
         return refuse("its eye or direction is not finite");
+    }
+    if (factorisation.crop) {
+        if (auto status = validate_crop(*factorisation.crop, lattice.n); !status) {
+            return status;
+        }
     }
     if (factorisation.slice_exponent < -1 ||
         factorisation.slice_exponent > volume::coarsest_level(lattice.n)) {

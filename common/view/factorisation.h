@@ -15,6 +15,8 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "common/view/camera.h"
@@ -86,9 +88,14 @@ struct Factorisation {
     int slice_exponent = 0;  // as in Sampling, or the level of detail (volume/levels.h)
     Classify classify = Classify::post;
     std::vector<Face> faces;
+    // What is drawn of the cube, the faces of the box included; else all of it. The picture is that of a cube
+    // that ends there: no sample lies outside, and what a ray's first and last samples stand for reaches to
+    // where it enters and leaves the box. Values are interpolated between all voxels all the same.
+    std::optional<volume::Box> crop = {};
 
     bool operator==(const Factorisation&) const = default;
 
+    volume::Box shown() const { return crop.value_or(volume::whole(lattice.n)); }
     int level() const { return slice_exponent > 0 ? slice_exponent : 0; }
     double slice_pitch() const {
         return slice_exponent < 0 ? 0.5 : 1 << level();
@@ -100,11 +107,17 @@ struct Factorisation {
     double step(const Face& face, double i, double j) const;
 };
 
-// The faces that the picture needs, each just large enough for its part of the picture and of the cube, and
-// one level of detail for all: that whose voxels are nearest to an intermediate pixel where they are largest.
-// The camera and size are valid.
+// The faces that the picture needs, each just large enough for its part of the picture and of what is shown
+// of the cube, and one level of detail for all: that whose voxels are nearest to an intermediate pixel where
+// they are largest, unless what is shown is thinner than a few of its nodes. The camera, size and crop are
+// valid.
 Factorisation factorise(const Camera& camera, const ImageSize& size, const Lattice& lattice,
-                        const Sampling& sampling);
+                        const Sampling& sampling, const std::optional<volume::Box>& crop = {});
+// The same of the cameras of one frame, on one level of detail, the finest that one of them wants: what two
+// eyes see is to be alike.
+std::vector<Factorisation> factorise(std::span<const Camera> cameras, const ImageSize& size,
+                                     const Lattice& lattice, const Sampling& sampling,
+                                     const std::optional<volume::Box>& crop = {});
 
 // Half-open range of pixels along one side of a face.
 struct PixelRange {
@@ -125,6 +138,12 @@ struct SliceRange {
 };
 SliceRange slices_in_front(const Factorisation& factorisation, const Face& face, std::int64_t lo,
                            std::int64_t hi);
+
+// Refuses a box to crop a cube of n voxels to that is not inside it, or has no thickness along some axis.
+base::Status validate_crop(const volume::Box& crop, const volume::Index3& n);
+// The box with its faces moved out to planes of a level's nodes, as far as the cube goes: between them a
+// coarse level has samples, however thin the box.
+volume::Box widened_to_nodes(const volume::Box& crop, int level, const volume::Index3& n);
 
 // The pixels of a face that rays through the (closed) box can reach: its window (DVR 3.4).
 Rect window_of(const Factorisation& factorisation, const Face& face, const volume::Box& box);

@@ -181,14 +181,25 @@ void add_plan(std::vector<Plan>& plans, Face face, const Polygon& seen, const Co
     plans.push_back(plan);
 }
 
-// The slopes, as seen from the eye, of the cube's part in front of it.
-Interval cube_slopes(const Factorisation& factorisation, const Face& face, const SliceRange& slices,
-                     int axis) {
+// The planes along an axis that what is shown of the cube ends at.
+struct Ends {
+    double first, last;
+};
+Ends ends_of_shown(const Factorisation& factorisation, int axis) {
+    const volume::Box shown = factorisation.shown();
+    const auto a = static_cast<std::size_t>(axis);
+    return {static_cast<double>(shown.lo[a]), static_cast<double>(shown.hi[a])};
+}
+
+// The slopes, as seen from the eye, of what is shown of the cube in front of it.
+Interval slopes_of_shown(const Factorisation& factorisation, const Face& face, const SliceRange& slices,
+                         int axis) {
+    const Ends ends = ends_of_shown(factorisation, axis);
     Interval range;
     for (const std::int64_t k : {slices.first, slices.last}) {
         const double depth = factorisation.slice_place(k) - factorisation.eye[face.axis];
-        range.add(-factorisation.eye[axis] / depth);
-        range.add((static_cast<double>(factorisation.lattice.n[axis] - 1) - factorisation.eye[axis]) / depth);
+        range.add((ends.first - factorisation.eye[axis]) / depth);
+        range.add((ends.last - factorisation.eye[axis]) / depth);
     }
     // A slice through the eye itself has any slope.
     return {std::max(range.lo, -1.0), std::min(range.hi, 1.0)};
@@ -202,16 +213,17 @@ void plan_perspective(std::vector<Plan>& plans, const Factorisation& factorisati
     for (int axis = 0; axis < 3; ++axis) {
         for (const int sign : {1, -1}) {
             const Face face{.axis = axis, .sign = sign};
-            const SliceRange slices =
-                slices_in_front(factorisation, face, 0, factorisation.lattice.n[axis] - 1);
+            const volume::Box shown = factorisation.shown();
+            const auto a = static_cast<std::size_t>(axis);
+            const SliceRange slices = slices_in_front(factorisation, face, shown.lo[a], shown.hi[a]);
             if (slices.empty()) {
                 continue;
             }
             const Linear forward = sign * component(axis);
             const Coordinate u{sign * component(face.u_axis()), forward};
             const Coordinate v{sign * component(face.v_axis()), forward};
-            Polygon seen = u.clipped(picture, cube_slopes(factorisation, face, slices, face.u_axis()));
-            seen = v.clipped(seen, cube_slopes(factorisation, face, slices, face.v_axis()));
+            Polygon seen = u.clipped(picture, slopes_of_shown(factorisation, face, slices, face.u_axis()));
+            seen = v.clipped(seen, slopes_of_shown(factorisation, face, slices, face.v_axis()));
             add_plan(plans, face, seen, u, v, resolution);
         }
     }
@@ -223,7 +235,7 @@ void plan_parallel(std::vector<Plan>& plans, const Factorisation& factorisation,
     const Vec3 size = glm::abs(direction);
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const Face face{.axis = axis, .sign = direction[axis] > 0 ? 1 : -1};
-    const double last_slice = static_cast<double>(factorisation.lattice.n[axis] - 1);
+    const Ends along = ends_of_shown(factorisation, axis);
     // Where a picture's rays cross slice 0, and where lines along them through the cube do.
     const auto coordinate = [&](int a) {
         const double shear = direction[a] / direction[axis];
@@ -232,10 +244,13 @@ void plan_parallel(std::vector<Plan>& plans, const Factorisation& factorisation,
                           {1, 0, 0}};
     };
     const auto reach = [&](int a) {
-        const double drift = direction[a] / direction[axis] * last_slice;
+        const double shear = direction[a] / direction[axis];
+        const Ends ends = ends_of_shown(factorisation, a);
         Interval range;
-        range.add(-std::max(drift, 0.0));
-        range.add(static_cast<double>(factorisation.lattice.n[a] - 1) - std::min(drift, 0.0));
+        for (const double plane : {along.first, along.last}) {
+            range.add(ends.first - shear * plane);
+            range.add(ends.last - shear * plane);
+        }
         return range;
     };
     const Coordinate u = coordinate(face.u_axis());
@@ -244,39 +259,40 @@ void plan_parallel(std::vector<Plan>& plans, const Factorisation& factorisation,
     add_plan(plans, face, seen, u, v, resolution);
 }
 
-// The distance along a face's axis of the nearest plane, `nearest` or beyond, where [0, last] meets what is
-// seen between two slopes by an eye at `eye`.
-double seen_from(double nearest, double eye, double least_slope, double greatest_slope, double last) {
-    // The line of the least slope is to be below `last` there, that of the greatest above 0.
-    if (eye + least_slope * nearest > last) {
-        nearest = least_slope < 0 ? (last - eye) / least_slope : nearest;
+// The distance along a face's axis of the nearest plane, `nearest` or beyond, where [first, last] meets what
+// is seen between two slopes by an eye at `eye`.
+double seen_from(double nearest, double eye, double least_slope, double greatest_slope, const Ends& ends) {
+    // The line of the least slope is to be below the last there, that of the greatest above the first.
+    if (eye + least_slope * nearest > ends.last) {
+        nearest = least_slope < 0 ? (ends.last - eye) / least_slope : nearest;
     }
-    if (eye + greatest_slope * nearest < 0) {
-        nearest = greatest_slope > 0 ? -eye / greatest_slope : nearest;
+    if (eye + greatest_slope * nearest < ends.first) {
+        nearest = greatest_slope > 0 ? (ends.first - eye) / greatest_slope : nearest;
     }
     return nearest;
 }
 
-// How far from the eye the plane of the cube is that lies so far from the nearest that a face sees (0) to the
-// farthest (1): from pixel to pixel are pitch times as many voxels. In a parallel view they are as many as
-// the pitch.
+// How far from the eye the plane is, of what is shown of the cube, that lies so far from the nearest that a
+// face sees (0) to the farthest (1): from pixel to pixel are pitch times as many voxels. In a parallel view
+// they are as many as the pitch.
 double spread_at(const Factorisation& factorisation, const Plan& plan, double farther) {
     const Face& face = plan.face;
     if (factorisation.projection == Projection::parallel) {
         return 1;
     }
-    const auto last = [&](int axis) { return static_cast<double>(factorisation.lattice.n[axis] - 1); };
+    const Ends ends = ends_of_shown(factorisation, face.axis);
     const auto along = [&](double nearest, int axis, const Interval& slopes) {
         // Slopes are those along the axis, whichever way the face looks: going against it turns them round.
         const double eye = factorisation.eye[axis];
-        return face.sign > 0 ? seen_from(nearest, eye, slopes.lo, slopes.hi, last(axis))
-                             : seen_from(nearest, eye, -slopes.hi, -slopes.lo, last(axis));
+        const Ends sides = ends_of_shown(factorisation, axis);
+        return face.sign > 0 ? seen_from(nearest, eye, slopes.lo, slopes.hi, sides)
+                             : seen_from(nearest, eye, -slopes.hi, -slopes.lo, sides);
     };
     const double eye = factorisation.eye[face.axis];
-    double nearest = std::max(0.0, face.sign > 0 ? -eye : eye - last(face.axis));
+    double nearest = std::max(0.0, face.sign > 0 ? ends.first - eye : eye - ends.last);
     nearest = along(nearest, face.u_axis(), plan.range_u);
     nearest = along(nearest, face.v_axis(), plan.range_v);
-    const double farthest = face.sign > 0 ? last(face.axis) - eye : eye;
+    const double farthest = face.sign > 0 ? ends.last - eye : eye - ends.first;
     return nearest + farther * (farthest - nearest);
 }
 
@@ -302,13 +318,27 @@ bool magnified(const Factorisation& factorisation, const std::vector<Plan>& plan
     });
 }
 
+// The coarsest level that what is shown has a few nodes of along every axis: its faces cut through cells that
+// mix what is on both sides.
+int coarsest_level_shown(const Factorisation& factorisation) {
+    constexpr std::int64_t least_cells = 4;
+    int level = volume::coarsest_level(factorisation.lattice.n);
+    if (factorisation.crop) {
+        const auto [x, y, z] = factorisation.crop->plane_counts();
+        while (level > 0 && (least_cells << level) > std::min({x, y, z}) - 1) {
+            --level;
+        }
+    }
+    return level;
+}
+
 int slice_exponent(const Factorisation& factorisation, const std::vector<Plan>& plans,
                    const Sampling& sampling) {
     if (sampling.level_of_detail) {
         // The level whose voxels are nearest to a pixel, by ratio.
         const double level = std::round(std::log2(fewest_voxels_per_pixel(factorisation, plans)));
-        if (level > 0) {
-            const int coarsest = volume::coarsest_level(factorisation.lattice.n);
+        const int coarsest = coarsest_level_shown(factorisation);
+        if (level > 0 && coarsest > 0) {
             return static_cast<int>(std::min<double>(level, sampling.classify == Classify::pre_integrated
                                                                 ? std::min(coarsest, volume::max_margin_level)
                                                                 : coarsest));
@@ -320,10 +350,10 @@ int slice_exponent(const Factorisation& factorisation, const std::vector<Plan>& 
 }  // namespace
 
 Factorisation factorise(const Camera& camera, const ImageSize& size, const Lattice& lattice,
-                        const Sampling& sampling) {
+                        const Sampling& sampling, const std::optional<volume::Box>& crop) {
     const Rays rays = in_voxel_space(rays_of(camera, size), lattice);
     Factorisation factorisation{
-        .projection = camera.projection, .lattice = lattice, .classify = sampling.classify};
+        .projection = camera.projection, .lattice = lattice, .classify = sampling.classify, .crop = crop};
     const Polygon picture = whole_picture(size);
     std::vector<Plan> plans;
     if (camera.projection == Projection::perspective) {
@@ -337,6 +367,20 @@ Factorisation factorise(const Camera& camera, const ImageSize& size, const Latti
     lay_all(plans, factorisation);
     factorisation.slice_exponent = slice_exponent(factorisation, plans, sampling);
     return factorisation;
+}
+
+std::vector<Factorisation> factorise(std::span<const Camera> cameras, const ImageSize& size,
+                                     const Lattice& lattice, const Sampling& sampling,
+                                     const std::optional<volume::Box>& crop) {
+    std::vector<Factorisation> each;
+    for (const Camera& camera : cameras) {
+        each.push_back(factorise(camera, size, lattice, sampling, crop));
+    }
+    const auto finest = std::ranges::min_element(each, {}, &Factorisation::slice_exponent);
+    for (Factorisation& factorisation : each) {
+        factorisation.slice_exponent = finest->slice_exponent;
+    }
+    return each;
 }
 
 }  // namespace shearwater::view

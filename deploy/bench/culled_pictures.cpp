@@ -55,8 +55,9 @@ view::Sampling sampling_at_random(std::mt19937& random) {
 CulledPicture compare(const shear::BrickVolume& volume, culling::Culler& culler,
                       const culling::Settings& settings, const view::TransferFunction& tf,
                       const view::Camera& camera, const view::ImageSize& size, const view::Lattice& lattice,
-                      const view::Sampling& sampling, base::Workers& workers) {
-    const view::Factorisation f = view::factorise(camera, size, lattice, sampling);
+                      const view::Sampling& sampling, base::Workers& workers,
+                      const std::optional<volume::Box>& crop) {
+    const view::Factorisation f = view::factorise(camera, size, lattice, sampling, crop);
     const auto classification = shear::classify(volume, tf, f.classify, workers);
     culler.prepare(tf, settings.kind, f.level(), workers);
     const culling::VisibleBlocks visible = culler.visible(f, tf, settings, workers);

@@ -1,6 +1,7 @@
 #pragma once
 // Pictures with culling beside pictures without, of views and transfer functions at random.
 
+#include <optional>
 #include <random>
 
 #include "common/base/workers.h"
@@ -25,10 +26,12 @@ struct CulledPicture {
     shear::RenderStats with, without;
 };
 
-// One view of a whole cube with and without. Functions that are missing are computed.
+// One view of a whole cube, or of what it is cropped to, with and without. Functions that are missing are
+// computed.
 CulledPicture compare(const shear::BrickVolume& volume, culling::Culler& culler,
                       const culling::Settings& settings, const view::TransferFunction& tf,
                       const view::Camera& camera, const view::ImageSize& size, const view::Lattice& lattice,
-                      const view::Sampling& sampling, base::Workers& workers);
+                      const view::Sampling& sampling, base::Workers& workers,
+                      const std::optional<volume::Box>& crop = {});
 
 }  // namespace shearwater::bench

@@ -20,7 +20,7 @@ namespace shearwater::node {
 
 class Branch {
   public:
-    static constexpr std::size_t max_pending = 256;       // frames; more are cut short, oldest first
+    static constexpr std::size_t max_pending = 512;       // frames; more are cut short, oldest first
     static constexpr std::chrono::seconds patience{120};  // for a child's windows of one frame
 
     struct ChildSpec {

@@ -3,6 +3,7 @@
 // has to: a Fault names the field.
 
 #include <optional>
+#include <vector>
 
 #include "common/culling/settings.h"
 #include "common/image/image.h"
@@ -10,6 +11,7 @@
 #include "common/view/bands.h"
 #include "common/view/camera.h"
 #include "common/view/factorisation.h"
+#include "common/view/stereo.h"
 #include "common/view/transfer_function.h"
 #include "common/volume/box.h"
 #include "common/volume/histogram.h"
@@ -47,7 +49,11 @@ struct View {
     bool sketch = false;                  // before the cube is loaded, pictures of a sketch are welcome
     view::Classify classify = view::Classify::post;
     culling::Settings culling;
+    std::optional<view::StereoSettings> stereo;  // a pair of pictures, for two eyes
+    std::optional<volume::Box> crop;             // of whatever cube there is: only its order is checked
 };
+// Of the one picture, or of the left eye's and the right one's.
+std::vector<view::Camera> cameras_of(const View& view);
 pb::SetView to_wire(const View& view);
 Parsed<View> view_from(const pb::SetView& view);
 

@@ -6,7 +6,8 @@
 #include <utility>
 
 #include "common/base/result.h"
-#include "common/view/geometry.h"
+#include "common/view/camera.h"
+#include "common/view/factorisation.h"
 #include "protocol/wire/header.h"
 
 namespace shearwater::wire {
@@ -30,5 +31,10 @@ inline view::Vec3 vec3_from(const pb::Vec3& from) {
 inline bool finite(const view::Vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
+
+pb::Projection to_wire(view::Projection projection);
+Parsed<view::Projection> projection_from(pb::Projection projection);
+pb::Classification to_wire(view::Classify classify);
+Parsed<view::Classify> classify_from(pb::Classification classification, const char* field);
 
 }  // namespace shearwater::wire

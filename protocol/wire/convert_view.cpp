@@ -1,26 +1,10 @@
-// Cameras, transfer functions, factorisations and a client's request made of them.
+// Cameras, transfer functions and a client's request made of them.
 
-#include "common/volume/levels.h"
 #include "protocol/wire/convert.h"
 #include "protocol/wire/convert_fields.h"
 
 namespace shearwater::wire {
 namespace {
-
-pb::Projection to_wire(view::Projection projection) {
-    return projection == view::Projection::parallel ? pb::PARALLEL : pb::PERSPECTIVE;
-}
-
-Parsed<view::Projection> projection_from(pb::Projection projection) {
-    switch (projection) {
-        case pb::PERSPECTIVE:
-            return view::Projection::perspective;
-        case pb::PARALLEL:
-            return view::Projection::parallel;
-        default:
-            return invalid("projection: unknown");
-    }
-}
 
 Parsed<view::Quality> quality_from(pb::Quality quality) {
     switch (quality) {
@@ -35,22 +19,6 @@ Parsed<view::Quality> quality_from(pb::Quality quality) {
     }
 }
 
-pb::Classification to_wire(view::Classify classify) {
-    return classify == view::Classify::pre_integrated ? pb::CLASSIFICATION_PRE_INTEGRATED
-                                                      : pb::CLASSIFICATION_POST;
-}
-
-Parsed<view::Classify> classify_from(pb::Classification classification, const char* field) {
-    switch (classification) {
-        case pb::CLASSIFICATION_POST:
-            return view::Classify::post;
-        case pb::CLASSIFICATION_PRE_INTEGRATED:
-            return view::Classify::pre_integrated;
-        default:
-            return invalid(std::string(field) + ": unknown");
-    }
-}
-
 // Finite is all that is asked of it here: what else a camera needs depends on the picture's size.
 Parsed<view::Camera> camera_from(const pb::Camera& camera) {
     const auto projection = projection_from(camera.projection());
@@ -62,9 +30,10 @@ Parsed<view::Camera> camera_from(const pb::Camera& camera) {
                             .up = vec3_from(camera.up()),
                             .projection = *projection,
                             .fov = camera.fov(),
-                            .height = camera.height()};
+                            .height = camera.height(),
+                            .slant = {camera.slant_x(), camera.slant_y()}};
     if (!finite(from.eye) || !finite(from.target) || !finite(from.up) || !std::isfinite(from.fov) ||
-        !std::isfinite(from.height)) {
+        !std::isfinite(from.height) || !std::isfinite(from.slant.x) || !std::isfinite(from.slant.y)) {
         return invalid("camera: finite numbers are wanted");
     }
     return from;
@@ -115,63 +84,62 @@ Parsed<view::OpacityPin> opacity_pin_from(const pb::OpacityPin& pin) {
     return invalid("transfer_function.opacity_pins: a pin of an unknown kind");
 }
 
-pb::Face to_wire(const view::Face& face) {
-    pb::Face to;
-    to.set_axis(static_cast<std::uint32_t>(face.axis));
-    to.set_sign(face.sign);
-    to.set_width(static_cast<std::uint32_t>(face.width));
-    to.set_height(static_cast<std::uint32_t>(face.height));
-    to.set_origin_u(face.origin.x);
-    to.set_origin_v(face.origin.y);
-    to.set_pitch_u(face.pitch.x);
-    to.set_pitch_v(face.pitch.y);
-    return to;
+Parsed<std::optional<view::StereoSettings>> stereo_from(const pb::SetView& view, const view::Camera& camera,
+                                                        const view::ImageSize& size) {
+    if (!view.has_stereo()) {
+        return std::optional<view::StereoSettings>();
+    }
+    const view::StereoSettings stereo{view.stereo().separation(), view.stereo().convergence(),
+                                      view.stereo().swap()};
+    if (const auto status = view::validate(stereo, camera, size); !status) {
+        return invalid(status.error());
+    }
+    return std::optional(stereo);
 }
 
-Parsed<view::Face> face_from(const pb::Face& face) {
-    constexpr auto max_side = static_cast<std::uint32_t>(view::Factorisation::max_side);
-    if (face.axis() > 2) {
-        return invalid("face.axis: 0, 1 or 2 is wanted");
+Parsed<std::optional<volume::Box>> crop_from(const pb::SetView& view) {
+    if (!view.has_crop()) {
+        return std::optional<volume::Box>();
     }
-    if (face.sign() != 1 && face.sign() != -1) {
-        return invalid("face.sign: 1 or -1 is wanted");
+    const auto crop = box_from(view.crop());
+    if (!crop) {
+        return crop.error();
     }
-    if (face.width() == 0 || face.height() == 0 || face.width() > max_side || face.height() > max_side) {
-        return invalid("face: width and height of 1 to " + std::to_string(max_side) + " are wanted");
-    }
-    if (!std::isfinite(face.origin_u()) || !std::isfinite(face.origin_v()) ||
-        !std::isfinite(face.pitch_u()) || !std::isfinite(face.pitch_v())) {
-        return invalid("face: a finite origin and pitch are wanted");
-    }
-    return view::Face{.axis = static_cast<int>(face.axis()),
-                      .sign = face.sign(),
-                      .width = static_cast<int>(face.width()),
-                      .height = static_cast<int>(face.height()),
-                      .origin = {face.origin_u(), face.origin_v()},
-                      .pitch = {face.pitch_u(), face.pitch_v()}};
-}
-
-Parsed<std::vector<view::Face>> faces_from(const pb::Factorisation& factorisation) {
-    if (factorisation.faces_size() > view::Factorisation::max_faces) {
-        return invalid("factorisation.faces: more than six");
-    }
-    std::vector<view::Face> faces;
-    std::int64_t area = 0;
-    for (const pb::Face& face : factorisation.faces()) {
-        const auto from = face_from(face);
-        if (!from) {
-            return from.error();
-        }
-        area += std::int64_t{from->width} * from->height;
-        faces.push_back(*from);
-    }
-    if (area > view::Factorisation::max_area) {
-        return invalid("factorisation.faces: too many pixels in all");
-    }
-    return faces;
+    return std::optional(*crop);
 }
 
 }  // namespace
+
+pb::Projection to_wire(view::Projection projection) {
+    return projection == view::Projection::parallel ? pb::PARALLEL : pb::PERSPECTIVE;
+}
+
+Parsed<view::Projection> projection_from(pb::Projection projection) {
+    switch (projection) {
+        case pb::PERSPECTIVE:
+            return view::Projection::perspective;
+        case pb::PARALLEL:
+            return view::Projection::parallel;
+        default:
+            return invalid("projection: unknown");
+    }
+}
+
+pb::Classification to_wire(view::Classify classify) {
+    return classify == view::Classify::pre_integrated ? pb::CLASSIFICATION_PRE_INTEGRATED
+                                                      : pb::CLASSIFICATION_POST;
+}
+
+Parsed<view::Classify> classify_from(pb::Classification classification, const char* field) {
+    switch (classification) {
+        case pb::CLASSIFICATION_POST:
+            return view::Classify::post;
+        case pb::CLASSIFICATION_PRE_INTEGRATED:
+            return view::Classify::pre_integrated;
+        default:
+            return invalid(std::string(field) + ": unknown");
+    }
+}
 
 pb::Quality to_wire(view::Quality quality) {
     switch (quality) {
@@ -193,6 +161,8 @@ pb::Camera to_wire(const view::Camera& camera) {
     to.set_projection(to_wire(camera.projection));
     to.set_fov(camera.fov);
     to.set_height(camera.height);
+    to.set_slant_x(camera.slant.x);
+    to.set_slant_y(camera.slant.y);
     return to;
 }
 
@@ -233,55 +203,12 @@ Parsed<view::TransferFunction> transfer_function_from(const pb::TransferFunction
     return from;
 }
 
-pb::Factorisation to_wire(const view::Factorisation& factorisation) {
-    pb::Factorisation to;
-    to.set_projection(to_wire(factorisation.projection));
-    *to.mutable_lattice() = to_wire(factorisation.lattice);
-    set(*to.mutable_eye(), factorisation.eye);
-    set(*to.mutable_direction(), factorisation.direction);
-    to.set_slice_exponent(factorisation.slice_exponent);
-    to.set_classification(to_wire(factorisation.classify));
-    for (const view::Face& face : factorisation.faces) {
-        *to.add_faces() = to_wire(face);
+std::vector<view::Camera> cameras_of(const View& view) {
+    if (!view.stereo) {
+        return {view.camera};
     }
-    return to;
-}
-
-Parsed<view::Factorisation> factorisation_from(const pb::Factorisation& factorisation) {
-    const auto projection = projection_from(factorisation.projection());
-    if (!projection) {
-        return projection.error();
-    }
-    const auto lattice = lattice_from(factorisation.lattice());
-    if (!lattice) {
-        return lattice.error();
-    }
-    if (factorisation.slice_exponent() < -1 || factorisation.slice_exponent() > volume::max_level) {
-        return invalid("factorisation.slice_exponent: -1 to " + std::to_string(volume::max_level) +
-                       " is wanted");
-    }
-    const auto classify = classify_from(factorisation.classification(), "factorisation.classification");
-    if (!classify) {
-        return classify.error();
-    }
-    auto faces = faces_from(factorisation);
-    if (!faces) {
-        return faces.error();
-    }
-    view::Factorisation from{.projection = *projection,
-                             .lattice = *lattice,
-                             .eye = vec3_from(factorisation.eye()),
-                             .direction = vec3_from(factorisation.direction()),
-                             .slice_exponent = factorisation.slice_exponent(),
-                             .classify = *classify,
-                             .faces = std::move(*faces)};
-    if (!finite(from.eye) || !finite(from.direction)) {
-        return invalid("factorisation: a finite eye and direction are wanted");
-    }
-    if (const auto status = view::validate(from); !status) {
-        return invalid(status.error());
-    }
-    return from;
+    const auto eyes = view::eyes_of(view.camera, *view.stereo);
+    return {eyes.begin(), eyes.end()};
 }
 
 pb::SetView to_wire(const View& view) {
@@ -301,6 +228,14 @@ pb::SetView to_wire(const View& view) {
     if (view.culling != culling::Settings()) {
         to.mutable_culling()->set_kind(static_cast<pb::CullingKind>(view.culling.kind));
         to.mutable_culling()->set_threshold(view.culling.threshold);
+    }
+    if (view.stereo) {
+        to.mutable_stereo()->set_separation(view.stereo->separation);
+        to.mutable_stereo()->set_convergence(view.stereo->convergence);
+        to.mutable_stereo()->set_swap(view.stereo->swap);
+    }
+    if (view.crop) {
+        *to.mutable_crop() = to_wire(*view.crop);
     }
     return to;
 }
@@ -338,6 +273,14 @@ Parsed<View> view_from(const pb::SetView& view) {
     if (const auto status = culling::validate(culling); !status) {
         return invalid(status.error());
     }
+    const auto stereo = stereo_from(view, *camera, size);
+    if (!stereo) {
+        return stereo.error();
+    }
+    const auto crop = crop_from(view);
+    if (!crop) {
+        return crop.error();
+    }
     return View{.revision = view.revision(),
                 .camera = *camera,
                 .size = size,
@@ -347,7 +290,9 @@ Parsed<View> view_from(const pb::SetView& view) {
                 .level_of_detail = view.has_exact() ? std::optional(!view.exact()) : std::nullopt,
                 .sketch = view.sketch(),
                 .classify = *classify,
-                .culling = culling};
+                .culling = culling,
+                .stereo = *stereo,
+                .crop = *crop};
 }
 
 }  // namespace shearwater::wire

@@ -1,11 +1,14 @@
 #include "protocol/wire/picture.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/image/rle.h"
 
 namespace shearwater::wire {
 namespace {
+
+using Picture = image::Image<image::Rgba8>;
 
 Parsed<std::vector<std::byte>> inflated(std::span<const std::byte> bytes, std::size_t limit) {
     auto unpacked = image::inflate(bytes, limit);
@@ -19,7 +22,11 @@ Parsed<std::vector<std::byte>> inflated(std::span<const std::byte> bytes, std::s
 
 }  // namespace
 
-Message frame_message(pb::Frame frame, const view::ImageSize& size, base::Buffer coded, bool deflate) {
+Message frame_message(pb::Frame frame, const view::ImageSize& size, int eyes, base::Buffer coded,
+                      bool deflate) {
+    if (eyes > 1) {
+        frame.set_eyes(static_cast<std::uint32_t>(eyes));
+    }
     frame.set_width(static_cast<std::uint32_t>(size.width));
     frame.set_height(static_cast<std::uint32_t>(size.height));
     frame.set_encoding(pb::ENCODING_RLE);
@@ -33,12 +40,15 @@ Message frame_message(pb::Frame frame, const view::ImageSize& size, base::Buffer
     return message(std::move(frame), std::move(coded));
 }
 
-Parsed<image::Image<image::Rgba8>> picture_from(const Message& message, const view::ImageSize& asked) {
+Parsed<std::vector<Picture>> pictures_from(const Message& message, const view::ImageSize& asked, int eyes) {
     const auto& frame = std::get<pb::Frame>(message.body);
     if (std::cmp_not_equal(frame.width(), asked.width) || std::cmp_not_equal(frame.height(), asked.height)) {
         return Fault{pb::REASON_INVALID, "frame: not of the size asked for"};
     }
-    image::Image<image::Rgba8> picture(asked.width, asked.height, image::Unfilled());
+    if (std::cmp_not_equal(std::max(frame.eyes(), 1U), eyes)) {
+        return Fault{pb::REASON_INVALID, "frame: not of as many eyes as asked for"};
+    }
+    Picture picture(asked.width, eyes * asked.height, image::Unfilled());
     std::span<const std::byte> code;
     if (message.payload) {
         code = *message.payload;
@@ -57,7 +67,26 @@ Parsed<image::Image<image::Rgba8>> picture_from(const Message& message, const vi
     if (const auto decoded = image::decode_rle(code, picture.pixels()); !decoded) {
         return Fault{pb::REASON_MALFORMED, "frame: " + decoded.error().message()};
     }
-    return picture;
+    std::vector<Picture> pictures;
+    if (eyes == 1) {
+        pictures.push_back(std::move(picture));
+        return pictures;
+    }
+    for (int eye = 0; eye < eyes; ++eye) {
+        const std::size_t pixels = picture.pixels().size() / static_cast<std::size_t>(eyes);
+        Picture& one = pictures.emplace_back(asked.width, asked.height, image::Unfilled());
+        std::ranges::copy(picture.pixels().subspan(static_cast<std::size_t>(eye) * pixels, pixels),
+                          one.pixels().begin());
+    }
+    return pictures;
+}
+
+Parsed<Picture> picture_from(const Message& message, const view::ImageSize& asked) {
+    auto pictures = pictures_from(message, asked, 1);
+    if (!pictures) {
+        return pictures.error();
+    }
+    return std::move(pictures->front());
 }
 
 }  // namespace shearwater::wire

@@ -6,8 +6,6 @@
 
 namespace shearwater::shear {
 
-namespace {
-
 using view::Face;
 using view::Factorisation;
 using view::PixelRange;
@@ -16,19 +14,36 @@ using view::SliceMap;
 using view::SliceRange;
 using volume::Box;
 
-// The slices of a box's own: those on its upper face only where the cube ends there.
-SliceRange owned_slices(const Factorisation& factorisation, const Face& face, const Box& box,
-                        const volume::Index3& last_voxel) {
-    const auto a = static_cast<std::size_t>(face.axis);
-    SliceRange slices = view::slices_in_front(factorisation, face, box.lo[a], box.hi[a]);
-    if (box.hi[a] != last_voxel[a] &&
-        factorisation.slice_place(slices.last) == static_cast<double>(box.hi[a])) {
+// Whether samples on the upper face of what is shown of a box are its own: the cube ends there, or what is
+// shown of it ends before the box does.
+bool FacePlan::closed(const Box& box, int axis) const {
+    const auto a = static_cast<std::size_t>(axis);
+    return box.hi[a] == last_voxel_[a] || shown_.hi[a] < box.hi[a];
+}
+
+// What is shown of a box; upside down along an axis where nothing is.
+Box FacePlan::shown_of(const Box& box) const {
+    Box part;
+    for (std::size_t a = 0; a < 3; ++a) {
+        part.lo[a] = std::max(box.lo[a], shown_.lo[a]);
+        part.hi[a] = std::min(box.hi[a], shown_.hi[a]);
+    }
+    return part;
+}
+
+SliceRange FacePlan::owned_slices(const Box& box) const {
+    const Box part = shown_of(box);
+    if (part.lo[0] > part.hi[0] || part.lo[1] > part.hi[1] || part.lo[2] > part.hi[2]) {
+        return {};
+    }
+    const auto a = static_cast<std::size_t>(face_.axis);
+    SliceRange slices = view::slices_in_front(factorisation_, face_, part.lo[a], part.hi[a]);
+    if (!closed(box, face_.axis) &&
+        factorisation_.slice_place(slices.last) == static_cast<double>(part.hi[a])) {
         --slices.last;
     }
     return slices;
 }
-
-}  // namespace
 
 // To where a ray is inside the cube along an in-plane axis: where  at + slope * (w - start)  is. In
 // perspective its place is how fast it moves sideways; in parallel all do alike.
@@ -42,15 +57,17 @@ FacePlan::Stretch FacePlan::clip(const Stretch& stretch, int axis, double place)
         return stretch;
     }
     const double planes_per_voxel = 1 / slope;
-    const double to_first = start - at * planes_per_voxel;
-    const auto last = static_cast<double>(last_voxel_[static_cast<std::size_t>(axis)]);
+    const auto first = static_cast<double>(shown_.lo[static_cast<std::size_t>(axis)]);
+    const auto last = static_cast<double>(shown_.hi[static_cast<std::size_t>(axis)]);
+    const double to_first = start + (first - at) * planes_per_voxel;
     const double to_last = start + (last - at) * planes_per_voxel;
     return {std::max(stretch.from, std::min(to_first, to_last)),
             std::min(stretch.to, std::max(to_first, to_last))};
 }
 
 FacePlan::Stretch FacePlan::of_row(int j) const {
-    Stretch row{0, static_cast<double>(last_voxel_[static_cast<std::size_t>(face_.axis)])};
+    const auto a = static_cast<std::size_t>(face_.axis);
+    Stretch row{static_cast<double>(shown_.lo[a]), static_cast<double>(shown_.hi[a])};
     if (perspective()) {
         const double eye = factorisation_.eye[face_.axis];
         (face_.sign > 0 ? row.from : row.to) =
@@ -67,9 +84,10 @@ FacePlan::FacePlan(const BrickVolume& volume, const Factorisation& factorisation
     : factorisation_(factorisation),
       face_(factorisation.faces[static_cast<std::size_t>(face_index)]),
       nodes_per_voxel_(std::ldexp(1.0, -level())),
+      shown_(factorisation.shown()),
       last_voxel_{volume.cube()[0] - 1, volume.cube()[1] - 1, volume.cube()[2] - 1},
-      window_(turn(view::window_of(factorisation, face_, volume.box()))),
-      slices_(owned_slices(factorisation, face_, volume.box(), last_voxel_)) {
+      window_(turn(view::window_of(factorisation, face_, shown_of(volume.box())))),
+      slices_(owned_slices(volume.box())) {
     if (slices_.empty() || window_.empty()) {
         window_ = {};
         return;
@@ -91,27 +109,27 @@ FacePlan::FacePlan(const BrickVolume& volume, const Factorisation& factorisation
 }
 
 void FacePlan::lay_slice(const Box& box, std::int64_t k) {
-    const SliceRange cube =
-        view::slices_in_front(factorisation_, face_, 0, last_voxel_[static_cast<std::size_t>(face_.axis)]);
+    const auto w = static_cast<std::size_t>(face_.axis);
+    const SliceRange cube = view::slices_in_front(factorisation_, face_, shown_.lo[w], shown_.hi[w]);
     if (k < cube.first || k > cube.last) {
         return;
     }
     const SliceMap map = slice_map(factorisation_.slice_place(k));
     const Rect size = turn({0, 0, face_.width, face_.height});
-    // Those with samples in [lo, hi), or up to hi where the cube ends there.
-    const auto pixels_in = [&](const Box& part) {
+    // Those with samples in [lo, hi), or up to hi where they are a box's own there.
+    const auto pixels_in = [&](const Box& part, const auto& closed_along) {
         const auto along = [&](int axis, double offset, double scale, int count) {
             const auto a = static_cast<std::size_t>(axis);
             return view::pixels_between(offset, scale, static_cast<double>(part.lo[a]),
-                                        static_cast<double>(part.hi[a]), part.hi[a] == last_voxel_[a], count);
+                                        static_cast<double>(part.hi[a]), closed_along(axis), count);
         };
         const PixelRange fast = along(fast_axis(), map.u_offset, map.u_scale, size.x1);
         const PixelRange slow = along(slow_axis(), map.v_offset, map.v_scale, size.y1);
         return Rect{fast.first, slow.first, fast.last, slow.last};
     };
-    inside_[slot(k) + 1] = pixels_in({{0, 0, 0}, last_voxel_});
+    inside_[slot(k) + 1] = pixels_in(shown_, [](int) { return true; });
     if (slices_.first <= k && k <= slices_.last) {
-        plans_[slot(k)].owned = pixels_in(box);
+        plans_[slot(k)].owned = pixels_in(shown_of(box), [&](int axis) { return closed(box, axis); });
     }
 }
 

@@ -54,6 +54,7 @@ class FacePlan {
     bool on_planes() const;
     // World lengths between two slices of the rays of pixels of row j from i on.
     void steps(int i, int j, std::span<float> out) const;
+    // "The cube" is what is shown of it (Factorisation::crop).
     // The pixels whose rays meet slice k inside the cube; none where k is behind the eye.
     const view::Rect& inside(std::int64_t k) const;
     // How many slice distances the samples of slice k stand for on the rays of pixels of row j from i on, all
@@ -77,6 +78,9 @@ class FacePlan {
     std::pair<double, double> line_of(int axis) const;
     double place_of(int axis, int pixel) const;
     view::SliceMap slice_map(double w) const;
+    bool closed(const volume::Box& box, int axis) const;
+    volume::Box shown_of(const volume::Box& box) const;
+    view::SliceRange owned_slices(const volume::Box& box) const;
     void lay_slice(const volume::Box& box, std::int64_t k);
     view::Rect gentle_rays() const;
     // What a ray has of the cube, along the principal axis, and what all rays of a row are within.
@@ -93,6 +97,7 @@ class FacePlan {
     const view::Factorisation& factorisation_;
     const view::Face& face_;
     double nodes_per_voxel_;
+    volume::Box shown_;          // of the cube
     volume::Index3 last_voxel_;  // of the cube
     view::Rect window_, gentle_;
     std::vector<Stretch> rows_;  // of the window

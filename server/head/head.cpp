@@ -54,20 +54,7 @@ Effects Head::handle(JobEvent event, wire::Time now) {
         collect(now, effects);
         return effects;
     }
-    auto& finished = std::get<Finished>(event);
-    const auto frame = frames_.find(finished.number);
-    if (frame == frames_.end()) {
-        return effects;  // its client has gone
-    }
-    const wire::LinkId client = frame->second.client;
-    frames_.erase(frame);
-    if (const auto session = sessions_.find(client); session != sessions_.end()) {
-        tell_state(effects);  // what is known of the tree is as new as the picture
-        session->second.incomplete = std::get<pb::Frame>(finished.frame.body).missing_size() > 0;
-        effects.net.emplace_back(wire::Send{client, std::move(finished.frame)});
-        begin_frames(client, session->second, now, effects);
-        collect(now, effects);
-    }
+    on_finished(std::move(std::get<Finished>(event)), now, effects);
     return effects;
 }
 
@@ -161,6 +148,13 @@ void Head::on_client_message(Session& session, const wire::Received& received, w
             on_link_down(received.link, effects);
             fault(received.link, view.error(), effects);
             return;
+        }
+        if (view->crop) {
+            if (const auto fits = view::validate_crop(*view->crop, roster_.cube().lattice.n); !fits) {
+                on_link_down(received.link, effects);
+                fault(received.link, {pb::REASON_INVALID, fits.error().message()}, effects);
+                return;
+            }
         }
         session.wanted = *std::move(view);
         session.asked = now;
@@ -276,119 +270,6 @@ void Head::describe_cube(wire::LinkId client, Effects& effects) const {
     *description.mutable_mapping() = wire::to_wire(*mapping);
     description.set_provisional(!mapping_);
     effects.net.emplace_back(wire::Send{client, wire::message(std::move(description))});
-}
-
-// Of a session's frames those that are still drawn and need not be.
-template <class Which>
-void Head::give_up_frames(Session& session, const Which& which, Effects& effects) {
-    std::erase_if(frames_, [&](const auto& entry) {
-        const auto& [number, frame] = entry;
-        const bool is_left = !frame.merged && which(frame);
-        if (is_left) {
-            give_up(number, frame, effects);
-            std::erase(session.in_flight, number);
-        }
-        return is_left;
-    });
-}
-
-// A view that is wanted in a lower quality than one under way has begun to move, and need not wait for what
-// is no longer looked at. Views of the same quality are left: else none of a drag's would be finished.
-void Head::give_up_refinements(wire::LinkId client, Session& session, Effects& effects) {
-    const auto is_finer = [&](const FrameInWork& frame) {
-        return frame.client == client &&
-               static_cast<int>(frame.view->quality) > static_cast<int>(session.wanted->quality);
-    };
-    give_up_frames(session, is_finer, effects);
-}
-
-// All is loaded. Whoever has looked at the sketch is to see the cube.
-void Head::begin_serving(wire::Time now, Effects& effects) {
-    serving_ = true;
-    for (auto& [link, session] : sessions_) {
-        if (!session.sketched) {
-            continue;
-        }
-        const auto is_sketch = [&](const FrameInWork& frame) { return frame.client == link && frame.sketch; };
-        give_up_frames(session, is_sketch, effects);
-        if (!session.wanted) {
-            session.wanted = session.latest;
-            session.asked = now;
-        }
-    }
-}
-
-std::optional<volume::Mapping> Head::sketch_for(const wire::View& view) const {
-    if (serving_ || !sketch_ || !view.sketch) {
-        return std::nullopt;
-    }
-    return mapping_ ? mapping_ : sketch_;
-}
-
-void Head::give_up(std::uint64_t number, const FrameInWork& frame, Effects& effects) {
-    branch_.cancel(number, effects.net);
-    if (frame.begun && !frame.merged) {
-        effects.jobs.emplace_back(GiveUp{number});
-    }
-}
-
-void Head::begin_frames(wire::LinkId client, Session& session, wire::Time now, Effects& effects) {
-    while (session.wanted && session.in_flight.size() < frames_in_flight) {
-        const std::optional<volume::Mapping> sketch = sketch_for(*session.wanted);
-        if (!serving_ && !sketch) {
-            return;
-        }
-        session.latest = std::exchange(session.wanted, std::nullopt);
-        session.begun = now;
-        session.sketched = sketch.has_value();
-        const wire::View& view = *session.latest;
-        view::Factorisation factorisation = view::factorise(
-            view.camera, view.size, roster_.cube().lattice,
-            view::sampling(view.quality, view.level_of_detail.value_or(limits_.level_of_detail),
-                           view.classify));
-        pb::Render render;
-        if (sketch) {
-            factorisation.slice_exponent = roster_.cube().sketch_level;
-            factorisation.classify = view::Classify::post;
-            *render.mutable_sketch() = wire::to_wire(*sketch);
-        }
-        render.set_frame(++last_frame_);
-        *render.mutable_factorisation() = wire::to_wire(factorisation);
-        *render.mutable_transfer_function() = wire::to_wire(view.tf);
-        frames_.emplace(last_frame_, FrameInWork{.client = client,
-                                                 .view = std::make_shared<const wire::View>(view),
-                                                 .asked = session.asked,
-                                                 .sketch = sketch.has_value()});
-        session.in_flight.push_back(last_frame_);
-        if (!sketch && can_cull(client, view, factorisation.level())) {
-            FrameInWork& frame = frames_.at(last_frame_);
-            frame.render = std::move(render);
-            frame.factorisation = factorisation;
-            effects.jobs.emplace_back(Look{last_frame_, std::move(factorisation), view.tf, view.culling});
-        } else {
-            branch_.begin(factorisation, render, now, effects.net);
-        }
-    }
-}
-
-void Head::collect(wire::Time now, Effects& effects) {
-    settle_functions(now, effects);
-    settle_sketch(now, effects);
-    settle_mapping(effects);
-    for (node::MergeJob& job : branch_.take_complete()) {
-        const auto found = frames_.find(job.frame->number);
-        if (found == frames_.end()) {
-            continue;
-        }
-        FrameInWork& frame = found->second;
-        frame.begun = true;
-        if (job.last()) {
-            frame.merged = true;
-            effects.jobs.emplace_back(Finish{std::move(job), frame.view, frame.asked, frame.sketch});
-        } else {
-            effects.jobs.emplace_back(Lay{std::move(job), frame.view});
-        }
-    }
 }
 
 }  // namespace shearwater::head

@@ -32,23 +32,27 @@ struct Limits {
 
 // ---- jobs carried out away from the network's thread ----
 
-// Of a frame: all merges but the last, one by one, with as much of the warp as each allows; then
+// A frame is one picture or two eyes', which are drawn, merged and warped as frames of their own: the first
+// has the frame's number, the second the next. Of each, all merges, one by one, with as much of the warp as
+// each allows; then
 struct Lay {
     node::MergeJob merge;
     std::shared_ptr<const wire::View> view;
+    view::Camera camera;  // the eye's
 };
-// the last, the rest of the warp, and the coding;
+// once all are laid, the coding of all;
 struct Finish {
-    node::MergeJob merge;
+    std::uint64_t frame;
+    std::size_t eyes;
     std::shared_ptr<const wire::View> view;
     wire::Time asked;     // when the view arrived
-    bool sketch = false;  // it is a picture of the sketch
+    bool sketch = false;  // it is of the sketch
 };
-// or an end without a picture.
+// or, of each that was begun, an end without a picture.
 struct GiveUp {
     std::uint64_t frame;
 };
-// What a frame's rays may see, before it is asked for;
+// What an eye's rays may see, before it is asked for;
 struct Look {
     std::uint64_t frame;
     view::Factorisation factorisation;
@@ -92,7 +96,8 @@ class Head {
   public:
     static constexpr std::size_t frames_in_flight = 2;  // a client
     static constexpr std::size_t max_clients = 64;
-    static_assert(frames_in_flight * max_clients < node::Branch::max_pending);
+    static constexpr std::size_t max_eyes = 2;
+    static_assert(frames_in_flight * max_eyes * max_clients < node::Branch::max_pending);
 
     Head(Roster roster, Limits limits);
 
@@ -115,16 +120,22 @@ class Head {
         bool sketched = false;                 // the newest view begun is drawn from the sketch
         wire::Time begun{};
     };
+    struct Eye {
+        view::Camera camera;
+        bool begun = false;   // some of it is laid
+        bool merged = false;  // all of it is, or is being
+        // What is asked for once it is known what is visible.
+        std::optional<wire::pb::Render> render = {};
+        view::Factorisation factorisation = {};
+    };
     struct FrameInWork {
         wire::LinkId client;
         std::shared_ptr<const wire::View> view;
         wire::Time asked;
         bool sketch = false;  // it is drawn from the sketch
-        bool begun = false;   // some of it is laid
-        bool merged = false;  // it is being finished: the last of the warp is to come
-        // What is asked for once it is known what is visible.
-        std::optional<wire::pb::Render> render = {};
-        view::Factorisation factorisation = {};
+        std::vector<Eye> eyes;
+
+        bool merged() const;  // it is being finished: the last of the warp is to come
     };
 
     void on_link_up(const wire::LinkUp& up, Effects& effects);
@@ -150,7 +161,13 @@ class Head {
     std::optional<volume::Mapping> sketch_for(const wire::View& view) const;
     void begin_serving(wire::Time now, Effects& effects);
     void give_up(std::uint64_t number, const FrameInWork& frame, Effects& effects);
+    std::pair<FrameInWork*, Eye*> find_eye(std::uint64_t number);
+    void on_finished(Finished finished, wire::Time now, Effects& effects);
     void begin_frames(wire::LinkId client, Session& session, wire::Time now, Effects& effects);
+    std::vector<view::Factorisation> factorise(const wire::View& view,
+                                               const std::vector<view::Camera>& cameras, bool sketch) const;
+    void begin_eyes(std::uint64_t number, FrameInWork& frame, const std::optional<volume::Mapping>& sketch,
+                    wire::Time now, Effects& effects);
     // Whether a view's frame is to have what is hidden left out, and something is known of that.
     bool can_cull(wire::LinkId client, const wire::View& view, int level);
     void on_looked(Looked looked, wire::Time now, Effects& effects);

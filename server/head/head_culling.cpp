@@ -18,13 +18,13 @@ bool Head::can_cull(wire::LinkId client, const wire::View& view, int level) {
 }
 
 void Head::on_looked(Looked looked, wire::Time now, Effects& effects) {
-    const auto found = frames_.find(looked.frame);
-    if (found == frames_.end() || !found->second.render) {
+    Eye* const eye = find_eye(looked.frame).second;
+    if (eye == nullptr || !eye->render) {
         return;  // its client has gone, or has moved on
     }
-    pb::Render render = *std::exchange(found->second.render, std::nullopt);
+    pb::Render render = *std::exchange(eye->render, std::nullopt);
     wire::put(looked.visible, render);
-    branch_.begin(found->second.factorisation, render, now, effects.net);
+    branch_.begin(eye->factorisation, render, now, effects.net);
 }
 
 void Head::settle_functions(wire::Time now, Effects& effects) {

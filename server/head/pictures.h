@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "common/base/buffer.h"
 #include "common/base/workers.h"
@@ -21,15 +22,17 @@ namespace shearwater::head {
 class Pictures {
   public:
     // Merges bands into their frame's images, which begin with the first of them, and warps and codes what
-    // they make possible. The view is the same for all of a frame.
-    void lay(node::MergeJob& job, const wire::View& view, base::Workers& workers);
-    // The picture of a frame whose last band is laid, in run lengths.
+    // they make possible. The view and the camera, that of the eye, are the same for all of a frame.
+    void lay(node::MergeJob& job, const wire::View& view, const view::Camera& camera, base::Workers& workers);
+    // The pictures of so many frames in a row, whose last bands are laid, in run lengths, one below the
+    // other; with what they lack and what they cost together.
     struct Picture {
         base::Buffer coded;
+        node::Account account;
         double warp_seconds = 0;
         double encode_seconds = 0;
     };
-    Picture take(std::uint64_t frame);
+    Picture take(std::uint64_t first, std::size_t frames = 1);
     // A frame that was begun comes to nothing; false if it was not.
     bool give_up(std::uint64_t frame);
 
@@ -41,12 +44,14 @@ class Pictures {
         image::Canvas canvas;
         std::optional<image::Warp> warp;         // of the canvas
         std::optional<image::RlePieces> pieces;  // stripes of its picture
+        node::Account account;                   // once the last band is laid
         double warp_seconds = 0;
         double encode_seconds = 0;
     };
 
     std::map<std::uint64_t, Making> by_frame_;
-    image::Canvas spare_;  // a frame's memory goes to the next
+    static constexpr std::size_t most_spare = 2;
+    std::vector<image::Canvas> spare_;  // frames' memory goes to the next
 };
 
 }  // namespace shearwater::head

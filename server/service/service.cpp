@@ -30,10 +30,10 @@ Service::~Service() {
 void Service::perform(head::Job job) {
     if (auto* band = std::get_if<head::Lay>(&job)) {
         boost::asio::post(frames_, [this, work = std::move(*band)]() mutable {
-            pictures_.lay(work.merge, *work.view, workers_);
+            pictures_.lay(work.merge, *work.view, work.camera, workers_);
         });
     } else if (auto* frame = std::get_if<head::Finish>(&job)) {
-        boost::asio::post(frames_, [this, work = std::move(*frame)]() mutable { finish(work); });
+        boost::asio::post(frames_, [this, work = std::move(*frame)] { finish(work); });
     } else if (auto* given_up = std::get_if<head::GiveUp>(&job)) {
         boost::asio::post(frames_, [this, number = given_up->frame] { pictures_.give_up(number); });
     } else if (auto* look = std::get_if<head::Look>(&job)) {
@@ -48,23 +48,22 @@ void Service::perform(head::Job job) {
     }
 }
 
-void Service::finish(head::Finish& job) {
-    pictures_.lay(job.merge, *job.view, workers_);
-    auto picture = pictures_.take(job.merge.frame->number);
+void Service::finish(const head::Finish& job) {
+    auto picture = pictures_.take(job.frame, job.eyes);
     pb::Frame frame;
-    frame.set_number(job.merge.frame->number);
+    frame.set_number(job.frame);
     frame.set_revision(job.view->revision);
     frame.set_sketch(job.sketch);
-    node::put(job.merge.account.missing, *frame.mutable_missing());
+    node::put(picture.account.missing, *frame.mutable_missing());
     const wire::Time encode_begin = std::chrono::steady_clock::now();
-    wire::Message message =
-        wire::frame_message(std::move(frame), job.view->size, std::move(picture.coded), job.view->deflate);
+    wire::Message message = wire::frame_message(std::move(frame), job.view->size, static_cast<int>(job.eyes),
+                                                std::move(picture.coded), job.view->deflate);
     pb::FrameStats* const stats = std::get<pb::Frame>(message.body).mutable_stats();
-    *stats->mutable_leaves() = job.merge.account.stats;
+    *stats->mutable_leaves() = picture.account.stats;
     stats->set_warp_seconds(picture.warp_seconds);
     stats->set_encode_seconds(picture.encode_seconds + base::seconds_since(encode_begin));
     stats->set_total_seconds(base::seconds_since(job.asked));
-    tell_(head::Finished{job.merge.frame->number, std::move(message)});
+    tell_(head::Finished{job.frame, std::move(message)});
 }
 
 void Service::read_voxels(const head::ReadVoxels& job) {

@@ -26,7 +26,7 @@ class Service {
     void perform(head::Job job);
 
   private:
-    void finish(head::Finish& job);
+    void finish(const head::Finish& job);
     void read_voxels(const head::ReadVoxels& job);
 
     std::unique_ptr<volume::VoxelSource> cube_;  // touched by the reading thread only

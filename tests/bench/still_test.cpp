@@ -56,7 +56,7 @@ wire::NetEvent frame_of(std::uint64_t revision) {
     const image::Image<image::Rgba8> picture(size.width, size.height);
     return wire::Received{
         .link = wire::LinkId{1},
-        .message = wire::frame_message(frame, size, image::encode_rle(picture.pixels(), workers), false)};
+        .message = wire::frame_message(frame, size, 1, image::encode_rle(picture.pixels(), workers), false)};
 }
 
 TEST(Still, TurnsFromPictureToPicture) {

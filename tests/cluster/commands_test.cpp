@@ -6,6 +6,7 @@
 #include <fstream>
 #include <regex>
 #include <sstream>
+#include <tuple>
 
 #include "common/image/png.h"
 #include "tests/support/command.h"
@@ -39,6 +40,50 @@ TEST_F(Commands, SnapshotIsTheSameWithAndWithoutDaemons) {
         EXPECT_TRUE(support::lit(*single));
         EXPECT_LE(support::difference(*single, *tree).largest, 1);
     }
+}
+
+// Pairs and crops too; and a pair's parts are its eyes'.
+TEST_F(Commands, PairsOfEyesAreTheSameWithAndWithoutDaemons) {
+    const std::string view = "snapshot " + cube_ + " -o " + png_ + " --azimuth 70 --size 120x90 ";
+    const auto picture = [&](const std::string& more) {
+        const Outcome outcome = run(view + more);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        auto read = image::read_png(png_);
+        EXPECT_TRUE(read);
+        return read ? *std::move(read) : image::Image<image::Rgba8>();
+    };
+    for (const auto& [mode, width, height] : {std::tuple("side-by-side", 240, 90),
+                                              {"top-bottom", 120, 180},
+                                              {"anaglyph", 120, 90},
+                                              {"interlaced", 120, 90}}) {
+        const std::string options = "--stereo " + std::string(mode) + " --eye-separation 4 --convergence 50 ";
+        const auto single = picture(options + "--tree 1,1");
+        const auto tree = picture(options + "--tree 2,3");
+        ASSERT_EQ(single.width(), width);
+        ASSERT_EQ(single.height(), height);
+        EXPECT_TRUE(support::lit(single));
+        // An anaglyph takes from one what leaks from the other, and the dark of sRGB is steep.
+        EXPECT_LE(support::difference(single, tree).largest, mode == std::string("anaglyph") ? 6 : 1) << mode;
+    }
+    const auto pair = picture("--tree 1,1 --stereo side-by-side");
+    const auto left = picture("--tree 1,1 --stereo left"), right = picture("--tree 1,1 --stereo right");
+    const auto swapped = picture("--tree 1,1 --stereo side-by-side --swap-eyes");
+    const auto one = picture("--tree 1,1 --stereo off");
+    EXPECT_GT(support::difference(left, right).largest, 8);
+    EXPECT_GT(support::difference(left, one).largest, 8);
+    for (int y = 0; y < 90; ++y) {
+        for (int x = 0; x < 120; ++x) {
+            ASSERT_EQ(pair.at(x, y), left.at(x, y));
+            ASSERT_EQ(pair.at(120 + x, y), right.at(x, y));
+            ASSERT_EQ(swapped.at(x, y), right.at(x, y));
+            ASSERT_EQ(swapped.at(120 + x, y), left.at(x, y));
+        }
+    }
+    const std::string crop = "--crop 5 20 0 32 9 25 --tree ";
+    const auto cropped = picture(crop + "1,1");
+    EXPECT_LE(support::difference(cropped, picture(crop + "3,2")).largest, 1);
+    EXPECT_GT(support::difference(cropped, one).largest, 20);
+    EXPECT_TRUE(support::lit(cropped));
 }
 
 TEST_F(Commands, ACubeByFormulaIsDrawnLikeTheFileOfIt) {
@@ -97,6 +142,22 @@ TEST_F(Commands, MistakesGetOneLine) {
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --spacing 1 0 1", "spacing");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --bits 12", "bits");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --lod some", "lod");
+    const std::string snapshot = "snapshot " + cube_ + " -o " + png_;
+    expect_mistake(snapshot + " --stereo blue", "stereo");
+    expect_mistake(snapshot + " --eye-separation 2", "stereo");
+    expect_mistake(snapshot + " --swap-eyes", "stereo");
+    for (const std::string tree : {" --tree 1,1", " --tree 2,2"}) {
+        expect_mistake(snapshot + tree + " --stereo anaglyph --eye-separation -1", "eye-separation");
+        expect_mistake(snapshot + tree + " --stereo anaglyph --convergence 0", "convergence");
+        expect_mistake(snapshot + tree + " --stereo anaglyph --convergence 0.01 --eye-separation 9", "eyes");
+        expect_mistake(snapshot + tree + " --stereo side-by-side --size 8192x4096", "pixels");
+        expect_mistake(snapshot + tree + " --crop 0 1 2", "crop");
+        expect_mistake(snapshot + tree + " --crop 0 1 2 3 x 5", "crop");
+        expect_mistake(snapshot + tree + " --crop 0 31 0 32 0 28", "axis 1");
+        expect_mistake(snapshot + tree + " --crop 0 30 0 32 -1 28", "axis 3");
+        expect_mistake(snapshot + tree + " --crop 0 30 7 7 0 28", "two voxels");
+        expect_mistake(snapshot + tree + " --crop 0 30 7 5 0 28", "two voxels");
+    }
     expect_mistake("serve " + cube_ + " --lod some", "lod");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --classify", "classify");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --classify preintegrated", "classify");

@@ -55,6 +55,9 @@ class CullingTree : public testing::Test {
             some = client_->draw(view);
             ASSERT_TRUE(some);
             EXPECT_LE(support::difference(some->image, all->image).largest, 1);
+            if (view.stereo) {
+                EXPECT_LE(support::difference(some->right, all->right).largest, 1);
+            }
         }
         EXPECT_GT(some->stats.leaves().bricks_culled(), 0U);
         std::cout << some->stats.leaves().bricks_culled() << " of " << some->stats.leaves().bricks_total()
@@ -81,6 +84,16 @@ TEST_F(CullingTree, LeavesOutWhatIsHidden) {
     const auto shot = client_->draw(view);
     ASSERT_TRUE(shot);
     EXPECT_GT(shot->stats.leaves().bricks_culled(), 0U);
+}
+
+// Each eye has what it sees, and a box that is cropped to hides with whole blocks only.
+TEST_F(CullingTree, LeavesOutWhatIsHiddenFromEitherEyeAndInABox) {
+    start(2, 2);
+    wire::View view = view_at(*client_->lattice(), 30, fog(0.9));
+    view.stereo = view::StereoSettings{40, 0, false};
+    expect_left_out(view);
+    view.crop = volume::Box{{5, 3, 21}, {129, 96, 100}};
+    expect_left_out(view);
 }
 
 TEST_F(CullingTree, GoesOnOverADeathOfARenderer) {

@@ -112,10 +112,10 @@ class HeadSketchTest : public testing::Test {
     // As the service does it.
     void finish(const Finish& job) {
         pb::Frame frame;
-        frame.set_number(job.merge.frame->number);
+        frame.set_number(job.frame);
         frame.set_revision(job.view->revision);
         frame.set_sketch(job.sketch);
-        take(head_->handle(Finished{job.merge.frame->number, wire::message(frame)}, now_));
+        take(head_->handle(Finished{job.frame, wire::message(frame)}, now_));
     }
     void show(std::uint64_t number) {
         pb::FrameShown shown;
@@ -125,7 +125,9 @@ class HeadSketchTest : public testing::Test {
     // Sorts what the head did; renderers are told the same, so the first stands for both.
     void take(Effects effects) {
         for (Job& job : effects.jobs) {
-            jobs_.push_back(std::get<Finish>(std::move(job)));
+            if (!std::holds_alternative<Lay>(job)) {
+                jobs_.push_back(std::get<Finish>(std::move(job)));
+            }
         }
         for (const wire::NetEffect& effect : effects.net) {
             const auto* send = std::get_if<wire::Send>(&effect);

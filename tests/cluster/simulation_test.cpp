@@ -246,5 +246,57 @@ TEST(Simulation, CullingOverAnyStormOfDeathsEndsWhole) {
     }
 }
 
+// Both eyes arrive together, whole, whatever the order of events and whoever dies meanwhile, and nothing is
+// left behind of pairs that are given up.
+TEST(Simulation, PairsOfEyesComeTogether) {
+    Waves source(true);
+    std::vector<image::Image<image::Rgba8>> first;
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+        support::Simulation simulation(seed, *tree::full_tree(2, 2 + static_cast<int>(seed % 2)), cube,
+                                       source);
+        const std::vector<tree::Place> places = all_daemons(simulation);
+        for (const tree::Place place : places) {
+            simulation.start_daemon(place);
+        }
+        wire::View view = view_of(cube);
+        view.stereo = view::StereoSettings();
+        view.crop = volume::Box{{1, 0, 2}, {9, 8, 12}};
+        if (seed % 3 == 0) {
+            view.culling.kind = culling::Kind::opof;
+        }
+        const tree::Place victim = places.back();
+        for (int asked = 0; asked < 4; ++asked) {
+            view.quality = asked % 2 == 0 ? view::Quality::high : view::Quality::draft;
+            simulation.ask(view);
+            simulation.run_some(static_cast<int>(simulation.fabric().random()() % 150));
+            if (asked == 2 && seed % 2 == 0) {
+                simulation.kill_daemon(victim);
+                simulation.run_some(30);
+            }
+        }
+        view.quality = view::Quality::normal;
+        const std::uint64_t revision = simulation.ask(view);
+        if (!simulation.running(victim)) {
+            ASSERT_TRUE(simulation.run_until([&] { return simulation.answered(revision); }));
+            EXPECT_TRUE(wire::pictures_from(*simulation.newest_frame(), view.size, 2));
+            simulation.start_daemon(victim);
+        }
+        ASSERT_TRUE(simulation.run_until([&] { return simulation.answered_whole(revision); }))
+            << "seed " << seed;
+        const auto pair = wire::pictures_from(*simulation.newest_frame(), view.size, 2);
+        ASSERT_TRUE(pair) << pair.error().text;
+        EXPECT_EQ(simulation.pictures(), 0U) << "seed " << seed;
+        if (first.empty()) {
+            for (const auto& eye : *pair) {
+                first.push_back(eye.clone());
+                EXPECT_TRUE(support::lit(eye));
+            }
+            EXPECT_GT(support::difference(first[0], first[1]).largest, 4);
+        }
+        EXPECT_LE(support::difference(first[0], pair->front()).largest, 1) << "seed " << seed;
+        EXPECT_LE(support::difference(first[1], pair->back()).largest, 1) << "seed " << seed;
+    }
+}
+
 }  // namespace
 }  // namespace shearwater

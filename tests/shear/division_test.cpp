@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <optional>
 #include <random>
 
 #include "common/image/over_windows.h"
@@ -113,8 +114,8 @@ struct Picture {
 
 Picture picture_of_tree(const Tree& tree, const Lattice& lattice, const view::Camera& camera,
                         const ImageSize& size, const view::TransferFunction& tf, base::Workers& workers,
-                        const view::Sampling& sampling) {
-    const Factorisation f = view::factorise(camera, size, lattice, sampling);
+                        const view::Sampling& sampling, const std::optional<Box>& crop) {
+    const Factorisation f = view::factorise(camera, size, lattice, sampling, crop);
     Picture picture{.pixels = {}, .samples = 0, .level = f.level()};
     const auto windows = tree.render(f, tf, workers, picture.samples);
     picture.pixels = image::warp(f, windows, camera, size, {0, 0, 0}, workers);
@@ -129,6 +130,7 @@ struct Taking {
     ImageSize size{90, 70};
     view::Sampling sampling{};
     view::TransferFunction tf = ramp_to(0.2);
+    std::optional<Box> crop = {};
 };
 
 // Returns how many pictures were taken of each level of detail.
@@ -146,7 +148,8 @@ std::map<int, int> expect_one_picture(FloatCube& cube, const std::vector<Node>& 
     }
     for (const NamedView& view : all_views(lattice, taking.every)) {
         const auto picture = [&](const Tree& tree, const view::TransferFunction& by) {
-            return picture_of_tree(tree, lattice, view.camera, taking.size, by, workers, taking.sampling);
+            return picture_of_tree(tree, lattice, view.camera, taking.size, by, workers, taking.sampling,
+                                   taking.crop);
         };
         const Picture one = picture(whole, taking.tf);
         const Picture count = picture(whole, thin);
@@ -227,6 +230,41 @@ TEST(Division, OnCoarserLevelsGivesOnePicture) {
     const auto levels = expect_one_picture(
         cube, divisions, {.every = 3, .size = {37, 29}, .sampling = {.level_of_detail = true}});
     EXPECT_GT(levels.contains(2) ? levels.at(2) : 0, 2);
+}
+
+// Boxes to crop to that end on planes of cuts, beside them and between, and that leave whole parts out.
+TEST(Division, OfACroppedCubeGivesOnePicture) {
+    FloatCube cube = noise_cube({47, 41, 53}, 8);
+    const Box whole = volume::whole(cube.n());
+    Node tree{.box = whole}, slivers = cut(whole, 2, {1, 9, 10, 11, 40});
+    divide(tree, 2, 3);
+    slivers.parts[4] = cut(slivers.parts[4].box, 0, {8, 23, 24});
+    const std::vector<Node> divisions{tree, slivers, cut(whole, 0, {8, 23}), even_cut(whole, 1, 3)};
+    for (const Box& crop : {Box{{8, 0, 10}, {23, 40, 40}}, Box{{23, 5, 11}, {24, 33, 52}},
+                            Box{{7, 13, 9}, {24, 27, 10}}, Box{{0, 0, 0}, {46, 40, 1}}}) {
+        for (const auto classify : {view::Classify::post, view::Classify::pre_integrated}) {
+            expect_one_picture(cube, divisions,
+                               {.every = 5, .sampling = {.classify = classify}, .crop = crop});
+        }
+    }
+    const auto high = view::sampling(view::Quality::high);
+    expect_one_picture(cube, divisions, {.every = 5, .sampling = high, .crop = Box{{8, 0, 9}, {24, 40, 41}}});
+}
+
+TEST(Division, OfACroppedCubeOnCoarserLevelsGivesOnePicture) {
+    FloatCube cube = noise_cube({131, 67, 97}, 9);
+    const Box whole = volume::whole(cube.n());
+    Node tree{.box = whole};
+    divide(tree, 2, 3);
+    const std::vector<Node> divisions{tree, cut(whole, 0, {1, 2, 3, 37, 41, 129}), even_cut(whole, 2, 7)};
+    for (const auto classify : {view::Classify::post, view::Classify::pre_integrated}) {
+        auto levels = expect_one_picture(cube, divisions,
+                                         {.every = 4,
+                                          .size = {37, 29},
+                                          .sampling = {.level_of_detail = true, .classify = classify},
+                                          .crop = Box{{37, 0, 13}, {129, 33, 95}}});
+        EXPECT_GT(levels[1] + levels[2], 2);
+    }
 }
 
 // Segments that begin in one part and end in another, and a transfer function that shows where one is cut

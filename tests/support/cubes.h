@@ -53,10 +53,11 @@ class Single {
     Single(const std::string& path, const volume::Mapping& mapping, view::Vec3 spacing = {1, 1, 1})
         : volume_(load(path, mapping, workers_)), lattice_{.n = volume_.cube(), .spacing = spacing} {}
 
+    // Of one eye.
     image::Image<image::Rgba8> draw(const wire::View& v) {
         const auto factorisation =
             view::factorise(v.camera, v.size, lattice_,
-                            view::sampling(v.quality, v.level_of_detail.value_or(true), v.classify));
+                            view::sampling(v.quality, v.level_of_detail.value_or(true), v.classify), v.crop);
         const auto windows = shear::render(volume_, factorisation, v.tf, workers_);
         return image::warp(factorisation, windows, v.camera, v.size, v.tf.background, workers_);
     }

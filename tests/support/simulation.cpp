@@ -293,7 +293,7 @@ void Simulation::perform(head::Effects effects) {
     for (head::Job& job : effects.jobs) {
         fabric_.later(server_node, [this, job = std::move(job)]() mutable {
             if (auto* lay = std::get_if<head::Lay>(&job)) {
-                pictures_.lay(lay->merge, *lay->view, workers_);
+                pictures_.lay(lay->merge, *lay->view, lay->camera, workers_);
             } else if (auto* finish = std::get_if<head::Finish>(&job)) {
                 this->finish(*finish);
             } else if (const auto* look = std::get_if<head::Look>(&job)) {
@@ -309,17 +309,16 @@ void Simulation::perform(head::Effects effects) {
     }
 }
 
-void Simulation::finish(head::Finish& job) {
-    pictures_.lay(job.merge, *job.view, workers_);
-    const std::uint64_t number = job.merge.frame->number;
+void Simulation::finish(const head::Finish& job) {
     pb::Frame frame;
-    frame.set_number(number);
+    frame.set_number(job.frame);
     frame.set_revision(job.view->revision);
     frame.set_sketch(job.sketch);
-    node::put(job.merge.account.missing, *frame.mutable_missing());
-    auto picture = pictures_.take(number);
-    perform(head_.handle(head::Finished{number, wire::frame_message(std::move(frame), job.view->size,
-                                                                    std::move(picture.coded), false)},
+    auto picture = pictures_.take(job.frame, job.eyes);
+    node::put(picture.account.missing, *frame.mutable_missing());
+    perform(head_.handle(head::Finished{job.frame, wire::frame_message(std::move(frame), job.view->size,
+                                                                       static_cast<int>(job.eyes),
+                                                                       std::move(picture.coded), false)},
                          fabric_.now()));
 }
 

@@ -105,7 +105,7 @@ class Simulation {
     struct Compositor;
 
     void perform(head::Effects effects);
-    void finish(head::Finish& job);
+    void finish(const head::Finish& job);
     void on_client_event(const wire::NetEvent& event);
 
     static constexpr int server_node = 0;

@@ -33,7 +33,7 @@ bool TreeClient::wait_ready() {
 
 std::uint64_t TreeClient::ask(wire::View view) {
     view.revision = ++revision_;
-    sizes_[revision_] = view.size;
+    asked_[revision_] = {view.size, view.stereo ? 2 : 1};
     send(wire::message(wire::to_wire(view)));
     return revision_;
 }
@@ -93,6 +93,7 @@ void TreeClient::on_frame(const wire::Message& message) {
     ++frames_received_;
     Shot shot{.revision = frame.revision(),
               .image = {},
+              .right = {},
               .missing = {},
               .sketch = frame.sketch(),
               .stats = frame.stats()};
@@ -101,8 +102,12 @@ void TreeClient::on_frame(const wire::Message& message) {
             shot.missing.push_back(*box);
         }
     }
-    if (auto picture = wire::picture_from(message, sizes_[frame.revision()])) {
-        shot.image = *std::move(picture);
+    const Asked& asked = asked_[frame.revision()];
+    if (auto eyes = wire::pictures_from(message, asked.size, asked.eyes)) {
+        shot.image = std::move(eyes->front());
+        if (asked.eyes > 1) {
+            shot.right = std::move(eyes->back());
+        }
         shots_.push_back(std::move(shot));
     }
     if (acknowledging_) {

@@ -19,7 +19,8 @@ namespace shearwater::support {
 
 struct Shot {
     std::uint64_t revision = 0;
-    image::Image<image::Rgba8> image;
+    image::Image<image::Rgba8> image;  // of two eyes: the left one's
+    image::Image<image::Rgba8> right;
     std::vector<volume::Box> missing;
     bool sketch = false;
     wire::pb::FrameStats stats;
@@ -70,7 +71,11 @@ class TreeClient {
     std::optional<view::Lattice> lattice_;
     wire::pb::TreeState state_;
     std::uint64_t revision_ = 0;
-    std::map<std::uint64_t, view::ImageSize> sizes_;
+    struct Asked {
+        view::ImageSize size;
+        int eyes;
+    };
+    std::map<std::uint64_t, Asked> asked_;
     std::deque<Shot> shots_;
     std::size_t frames_received_ = 0;
 };

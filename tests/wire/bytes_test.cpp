@@ -171,6 +171,31 @@ TEST(Bytes, OfWhatHasToDoWithCulling) {
     EXPECT_EQ(body_of(culling.at(2)), of(culling[2]) + "5a0b080311000000000000e83f");
 }
 
+// What two eyes and a box to crop to add.
+TEST(Bytes, OfPairsAndCrops) {
+    const std::string box = "0a060802100418061206085010641878";
+    View view = view_request();
+    const std::string plain = body_of(message(to_wire(view)));
+    view.stereo = view::StereoSettings{1, 2, true};
+    view.crop = volume::Box{{1, 2, 3}, {40, 50, 60}};
+    EXPECT_EQ(body_of(message(to_wire(view))),
+              plain + "a2011409000000000000f03f1100000000000000401801" + "aa0110" + box);
+    view.camera.slant = {0.25, -0.5};
+    const std::string slanted = body_of(message(to_wire(view)));
+    EXPECT_NE(slanted.find("a101000000000000d03fa901000000000000e0bf"), std::string::npos) << slanted;
+    view::Factorisation cropped = factorisation();
+    pb::Render render;
+    *render.mutable_factorisation() = to_wire(cropped);
+    cropped.crop = view.crop;
+    pb::Render of_part;
+    *of_part.mutable_factorisation() = to_wire(cropped);
+    EXPECT_EQ(body_of(message(of_part)).substr(8),
+              body_of(message(render)).substr(8) + "a20110" + box);  // behind the lengths
+    pb::Frame pair;
+    pair.set_eyes(2);
+    EXPECT_EQ(body_of(message(pair)), "a00102");
+}
+
 // And what pre-integrated classification does, of a view and of a factorisation.
 TEST(Bytes, OfPreIntegratedClassification) {
     constexpr std::size_t header_digits = 2 * header_bytes;

@@ -49,6 +49,52 @@ TEST(ViewConversion, ThereAndBack) {
     }
 }
 
+TEST(ViewConversion, PairsAndCropsThereAndBack) {
+    View view = view_request();
+    const View plain = view_from(to_wire(view)).value();
+    EXPECT_FALSE(plain.stereo);
+    EXPECT_FALSE(plain.crop);
+    EXPECT_EQ(cameras_of(plain), std::vector{view.camera});
+    view.camera.slant = {0.25, -0.5};
+    view.crop = volume::Box{{1, 2, 3}, {40, 50, 60}};
+    for (const view::StereoSettings& stereo :
+         {view::StereoSettings{}, view::StereoSettings{0.5, 4, true}, view::StereoSettings{0, 2, false}}) {
+        view.stereo = stereo;
+        const View back = view_from(to_wire(view)).value();
+        EXPECT_EQ(back.camera, view.camera);
+        EXPECT_EQ(back.stereo, view.stereo);
+        EXPECT_EQ(back.crop, view.crop);
+        const auto eyes = view::eyes_of(view.camera, stereo);
+        EXPECT_EQ(cameras_of(back), std::vector(eyes.begin(), eyes.end()));
+    }
+}
+
+TEST(ViewConversion, HostilePairsAndCrops) {
+    const auto refused = [](std::string_view what, auto change) {
+        View view = view_request();
+        view.stereo = view::StereoSettings{1, 2, false};
+        view.crop = volume::Box{{1, 2, 3}, {40, 50, 60}};
+        expect_refused(to_wire(view), view_from, what, change);
+    };
+    for (const double value : {nan, inf, -inf, -1.0}) {
+        refused("separation", [&](pb::SetView& v) { v.mutable_stereo()->set_separation(value); });
+        refused("convergence", [&](pb::SetView& v) { v.mutable_stereo()->set_convergence(value); });
+    }
+    for (const double value : {nan, inf, -inf, 11.0}) {
+        refused("slant x", [&](pb::SetView& v) { v.mutable_camera()->set_slant_x(value); });
+        refused("slant y", [&](pb::SetView& v) { v.mutable_camera()->set_slant_y(value); });
+    }
+    refused("eyes too far apart", [](pb::SetView& v) { v.mutable_stereo()->set_convergence(1e-9); });
+    refused("area of both", [](pb::SetView& v) {  // one alone is allowed
+        v.set_width(8192);
+        v.set_height(4096);
+    });
+    refused("crop below 0", [](pb::SetView& v) { v.mutable_crop()->mutable_lo()->set_x(-1); });
+    refused("crop upside down", [](pb::SetView& v) { v.mutable_crop()->mutable_lo()->set_y(51); });
+    refused("crop too large",
+            [](pb::SetView& v) { v.mutable_crop()->mutable_hi()->set_z(std::int64_t{1} << 41); });
+}
+
 TEST(ViewConversion, HostileCameras) {
     const auto refused = [](std::string_view what, auto change) {
         View view = view_request();
@@ -162,6 +208,8 @@ TEST(FactorisationConversion, ThereAndBack) {
     expect_same();
     f.faces.clear();
     expect_same();
+    f.crop = volume::Box{{1, 0, 2}, {9, 5, 4}};
+    EXPECT_EQ(factorisation_from(to_wire(f)).value(), f);
 }
 
 TEST(FactorisationConversion, WhatTheHeadMakesIsTaken) {
@@ -235,6 +283,12 @@ TEST(FactorisationConversion, Hostile) {
             face.set_width(16384);
             face.set_height(4097);
         }
+    });
+    refused("crop outside the cube", [](pb::Factorisation& f) {
+        *f.mutable_crop() = to_wire(volume::Box{{0, 0, 0}, {1, 1, 1 << 20}});
+    });
+    refused("crop of no thickness", [](pb::Factorisation& f) {
+        *f.mutable_crop() = to_wire(volume::Box{{0, 1, 0}, {1, 1, 1}});
     });
     refused("seven faces", [](pb::Factorisation& f) {
         while (f.faces_size() < 7) {

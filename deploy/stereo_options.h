@@ -1,0 +1,31 @@
+#pragma once
+// The options of a pair of pictures: how the eyes stand, and how their pictures are shown.
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/image/stereo_modes.h"
+#include "common/view/stereo.h"
+
+namespace shearwater::deploy {
+
+// --stereo off|side-by-side|top-bottom|anaglyph|interlaced|left|right, --eye-separation, --convergence,
+// --swap-eyes.
+struct StereoOptions {
+    std::string shown = "off";
+    view::StereoSettings eyes;
+
+    void add_to(CLI::App& app, const std::string& group = "Options");
+
+    std::vector<std::string> arguments() const;  // as they are given
+
+    // Nothing where one picture is wanted.
+    std::optional<image::StereoMode> mode() const { return image::stereo_mode(shown); }
+    std::optional<view::StereoSettings> settings() const {
+        return mode() ? std::optional(eyes) : std::nullopt;
+    }
+};
+
+}  // namespace shearwater::deploy
