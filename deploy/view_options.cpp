@@ -1,6 +1,9 @@
 #include "deploy/view_options.h"
 
+#include <array>
 #include <charconv>
+
+#include "common/scene/file.h"
 
 namespace shearwater::deploy {
 
@@ -12,6 +15,9 @@ void ViewOptions::add_to(CLI::App& app) {
     app.add_option("--elevation", orbit.elevation, "degrees above the horizontal")
         ->capture_default_str()
         ->group(group);
+    app.add_option("--roll", orbit.roll, "degrees that the camera leans to its right")
+        ->capture_default_str()
+        ->group(group);
     app.add_option("--distance", orbit.distance, "world units from the cube's middle; else all of it is seen")
         ->check(CLI::PositiveNumber)
         ->group(group);
@@ -20,14 +26,41 @@ void ViewOptions::add_to(CLI::App& app) {
     app.add_option("--height", height, "world height of a parallel picture; else the cube's diagonal")
         ->check(CLI::PositiveNumber)
         ->group(group);
-    app.add_option("--size", size, "of the picture, WIDTHxHEIGHT pixels")
-        ->capture_default_str()
-        ->group(group);
-    app.add_option("--quality", quality, "intermediate pixels per pixel: half, one, one and a half")
-        ->check(CLI::IsMember({"draft", "normal", "high"}))
-        ->capture_default_str()
-        ->group(group);
+    size_option_ = app.add_option("--size", size, "of the picture, WIDTHxHEIGHT pixels")
+                       ->capture_default_str()
+                       ->group(group);
+    quality_option_ =
+        app.add_option("--quality", quality, "intermediate pixels per pixel: half, one, one and a half")
+            ->check(CLI::IsMember({"draft", "normal", "high"}))
+            ->capture_default_str()
+            ->group(group);
     drawing.add_to(app, group);
+    std::vector<std::string> said_by_session = options::DrawingOptions::names();
+    for (const char* name :
+         {"--azimuth", "--elevation", "--roll", "--distance", "--fov", "--parallel", "--height"}) {
+        said_by_session.emplace_back(name);
+    }
+    options::add_session(app, session, said_by_session, group);
+}
+
+base::Status ViewOptions::open_session() {
+    if (session.empty()) {
+        return {};
+    }
+    const auto scene = scene::read(session);
+    if (!scene) {
+        return scene.error();
+    }
+    viewpoint_ = scene->viewpoint;
+    drawing.take(*scene);
+    if (size_option_ == nullptr || size_option_->count() == 0) {
+        size = std::to_string(scene->size.width) + "x" + std::to_string(scene->size.height);
+    }
+    if (quality_option_ == nullptr || quality_option_->count() == 0) {
+        constexpr std::array names{"draft", "normal", "high"};
+        quality = names[static_cast<std::size_t>(scene->quality.value_or(view::Quality::high))];
+    }
+    return {};
 }
 
 base::Result<view::ImageSize> ViewOptions::image_size() const {
@@ -54,8 +87,9 @@ base::Result<view::Camera> ViewOptions::camera(const view::Lattice& lattice) con
     if (!pixels) {
         return pixels.error();
     }
-    const view::Camera made = view::camera_on(
-        orbit, lattice, parallel ? view::Projection::parallel : view::Projection::perspective, fov, height);
+    const auto projection = parallel ? view::Projection::parallel : view::Projection::perspective;
+    const view::Camera made = viewpoint_ ? view::camera(*viewpoint_, lattice)
+                                         : view::camera_on(orbit, lattice, projection, fov, height);
     if (const auto valid = view::validate(made, *pixels); !valid) {
         return valid.error();
     }
