@@ -84,6 +84,7 @@ void Session::on_up() {
     sent_.clear();
     answered_ = revision_;
     before_link_ = revision_;
+    picker_.give_up();
 }
 
 void Session::on_down(const wire::LinkDown& down, wire::Time now) {
@@ -123,6 +124,12 @@ void Session::on_message(const wire::Message& message, wire::Time now) {
         on_tree(std::move(*tree), now);
     } else if (std::holds_alternative<pb::Frame>(message.body)) {
         on_frame(message, now);
+    } else if (const auto* picked = std::get_if<pb::Picked>(&message.body)) {
+        const auto answer = picker_.answer(*picked, cube_);
+        if (!answer) {
+            return give_up(answer.error(), now);
+        }
+        picked_ = *answer ? *answer : picked_;
     } else {
         const std::string what = std::string(wire::name(message.body)) + " is not for a client";
         give_up({pb::REASON_BAD_TYPE, what}, now);
@@ -169,7 +176,7 @@ void Session::on_frame(const wire::Message& message, wire::Time now) {
     if (!missing) {
         return give_up(missing.error(), now);
     }
-    auto pixels = wire::picture_from(message, sent->size);
+    auto pixels = wire::picture_from(message, sent->wish.size);
     if (!pixels) {
         return give_up(pixels.error(), now);
     }
@@ -185,7 +192,7 @@ void Session::on_frame(const wire::Message& message, wire::Time now) {
     const pb::LeafStats& leaves = frame.stats().leaves();
     frame_ = FrameNote{
         .revision = sent->revision,
-        .size = sent->size,
+        .size = sent->wish.size,
         .quality = sent->quality,
         .missing = std::move(*missing),
         .sketch = frame.sketch(),
@@ -194,6 +201,7 @@ void Session::on_frame(const wire::Message& message, wire::Time now) {
         .opaque_bricks = leaves.bricks_total() - std::min(leaves.bricks_total(), leaves.bricks_empty()),
         .culled_bricks = leaves.bricks_culled()};
     picture_ = Picture{sent->revision, sent->quality, frame_->missing.empty(), std::move(*pixels)};
+    picture_wish_ = sent->wish;
     retry_after_ = first_retry;
     ready_at_frame_ = tree_.in_phase(pb::PHASE_READY);
     forget_older_than(frame.revision());
@@ -243,6 +251,18 @@ void Session::want(const Wish& wish, Change change, wire::Time now) {
     send_if_due(now);
 }
 
+void Session::pick(Purpose purpose, const view::Vec2& at) {
+    const bool in_picture =
+        wish_ && at.x >= 0 && at.y >= 0 && at.x <= wish_->size.width && at.y <= wish_->size.height;
+    if (in_picture && described_ && connection_ == Connection::connected) {
+        wire::PickRequest request{.camera = camera(wish_->viewpoint, cube_->lattice),
+                                  .size = wish_->size,
+                                  .at = at,
+                                  .tf = wish_->tf};
+        effects_.push_back(wire::Send{link_, picker_.ask(purpose, std::move(request))});
+    }
+}
+
 void Session::set_effort(const Effort& effort, wire::Time now) {
     pace_.set(effort);
     refine(now);
@@ -275,7 +295,7 @@ void Session::send_view(wire::Time now) {
                           .classify = wish_->classify,
                           .culling = wish_->culling};
     effects_.push_back(wire::Send{link_, wire::message(wire::to_wire(view))});
-    sent_.push_back({revision_, view.size, view.quality, now, tree_.nodes.empty() || tree_.ready});
+    sent_.push_back({revision_, *wish_, view.quality, now, tree_.nodes.empty() || tree_.ready});
     sent_at_ = now;
     unsent_ = false;
 }
