@@ -7,6 +7,7 @@
 
 #include "client/view/app.h"
 #include "common/options/drawing_options.h"
+#include "common/scene/file.h"
 
 namespace {
 
@@ -16,7 +17,7 @@ constexpr int unusable = 2;
 
 struct Options {
     std::vector<std::string> command;
-    std::string connect, secret_file, screenshot, controls;
+    std::string connect, secret_file, screenshot, controls, session;
     std::string size = "1280x800";
     options::DrawingOptions drawing;
     ui::WindowOptions window;
@@ -47,6 +48,9 @@ void declare(CLI::App& app, Options& options) {
                    "Frames a second to hold while the view moves, by lesser quality where need be")
         ->check(CLI::Range(model::Effort::min_rate, model::Effort::max_rate))
         ->capture_default_str();
+    std::vector<std::string> said_by_session = options::DrawingOptions::names();
+    said_by_session.emplace_back("--target-rate");
+    options::add_session(app, options.session, said_by_session);
     app.add_option("--controls", options.controls,
                    "Keep in this file where each control is, for scripts: NAME X Y WIDTH HEIGHT");
     app.add_option("--screenshot", options.screenshot,
@@ -87,6 +91,14 @@ base::Status run(Options options) {
     if (!secret) {
         return secret.error();
     }
+    std::optional<scene::Scene> scene;
+    if (!options.session.empty()) {
+        auto read = scene::read(options.session);
+        if (!read) {
+            return read.error();
+        }
+        scene = *std::move(read);
+    }
     auto window = ui::Window::open(options.window);
     if (!window) {
         return window.error();
@@ -98,6 +110,8 @@ base::Status run(Options options) {
                  .classify = options.drawing.classification(),
                  .culling = options.drawing.culling_settings(),
                  .effort = options.effort,
+                 .scene = std::move(scene),
+                 .session = options.session,
                  .controls = options.controls,
                  .screenshot = options.screenshot});
     return app.run();

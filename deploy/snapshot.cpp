@@ -47,9 +47,12 @@ base::Result<Picture> draw_by_tree(const Flags& flags, const view::TransferFunct
                            [&](double fraction) { bar.show(fraction); });
 }
 
-base::Status snapshot(const Flags& flags) {
+base::Status snapshot(Flags& flags) {
     if (const auto valid = flags.target.validate(); !valid) {
         return valid;
+    }
+    if (const auto opened = flags.view.open_session(); !opened) {
+        return opened;
     }
     const auto tf = flags.view.drawing.transfer_function();
     if (!tf) {

@@ -1,6 +1,7 @@
 #include <optional>
 
 #include "common/options/drawing_options.h"
+#include "common/scene/file.h"
 #include "deploy/commands.h"
 #include "deploy/target.h"
 #include "protocol/daemon/runtime.h"
@@ -14,12 +15,18 @@ struct Flags {
     TargetOptions target;
     options::DrawingOptions drawing;
     double target_rate = 20;
+    std::string session;
 };
 
 // Starts the window and waits until it closes; a local tree is kept alive meanwhile.
 base::Result<int> view(const Flags& flags) {
     if (const auto valid = flags.target.validate(); !valid) {
         return valid.error();
+    }
+    if (!flags.session.empty()) {  // before a tree is started for it
+        if (const auto readable = scene::read(flags.session); !readable) {
+            return readable.error();
+        }
     }
     auto target = open_target(flags.target, "info");
     if (!target) {
@@ -29,9 +36,13 @@ base::Result<int> view(const Flags& flags) {
     if (target->server.command.empty()) {
         arguments = {"--connect", wire::to_string(target->server)};
     }
-    const std::vector<std::string> drawing = flags.drawing.arguments();
-    arguments.insert(arguments.end(), drawing.begin(), drawing.end());
-    arguments.insert(arguments.end(), {"--target-rate", std::to_string(flags.target_rate)});
+    if (flags.session.empty()) {
+        const std::vector<std::string> drawing = flags.drawing.arguments();
+        arguments.insert(arguments.end(), drawing.begin(), drawing.end());
+        arguments.insert(arguments.end(), {"--target-rate", std::to_string(flags.target_rate)});
+    } else {
+        arguments.insert(arguments.end(), {"--session", flags.session});
+    }
     if (!target->server.command.empty()) {
         arguments.emplace_back("--");
         arguments.insert(arguments.end(), target->server.command.begin(), target->server.command.end());
@@ -68,6 +79,9 @@ Run add_view(CLI::App& app) {
                    "frames a second to hold while the view moves, by lesser quality where need be")
         ->check(CLI::Range(1.0, 60.0))
         ->capture_default_str();
+    std::vector<std::string> said_by_session = options::DrawingOptions::names();
+    said_by_session.emplace_back("--target-rate");
+    options::add_session(app, flags->session, said_by_session);
     flags->target.add_to(app);
     return [flags] {
         const auto status = view(*flags);

@@ -1,8 +1,11 @@
 #include "deploy/view_options.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <iterator>
+
+#include "common/scene/file.h"
 
 namespace shearwater::deploy {
 
@@ -12,6 +15,9 @@ void ViewOptions::add_to(CLI::App& app) {
         ->capture_default_str()
         ->group(group);
     app.add_option("--elevation", orbit.elevation, "degrees above the horizontal")
+        ->capture_default_str()
+        ->group(group);
+    app.add_option("--roll", orbit.roll, "degrees that the camera leans to its right")
         ->capture_default_str()
         ->group(group);
     app.add_option("--distance", orbit.distance, "world units from the cube's middle; else all of it is seen")
@@ -24,17 +30,24 @@ void ViewOptions::add_to(CLI::App& app) {
         ->group(group);
     drawing.add_tf(app, group);
     add_picture_to(app);
+    std::vector<std::string> said_by_session = options::DrawingOptions::names();
+    for (const char* name :
+         {"--azimuth", "--elevation", "--roll", "--distance", "--fov", "--parallel", "--height"}) {
+        said_by_session.emplace_back(name);
+    }
+    options::add_session(app, session, said_by_session, group);
 }
 
 void ViewOptions::add_picture_to(CLI::App& app) {
     const std::string group = "View";
-    app.add_option("--size", size, "of the picture, WIDTHxHEIGHT pixels")
-        ->capture_default_str()
-        ->group(group);
-    app.add_option("--quality", quality, "intermediate pixels per pixel: half, one, one and a half")
-        ->check(CLI::IsMember({"draft", "normal", "high"}))
-        ->capture_default_str()
-        ->group(group);
+    size_option_ = app.add_option("--size", size, "of the picture, WIDTHxHEIGHT pixels")
+                       ->capture_default_str()
+                       ->group(group);
+    quality_option_ =
+        app.add_option("--quality", quality, "intermediate pixels per pixel: half, one, one and a half")
+            ->check(CLI::IsMember({"draft", "normal", "high"}))
+            ->capture_default_str()
+            ->group(group);
     drawing.add_ways(app, group);
     app.add_option("--crop", crop,
                    "show these voxels only: the first and the last along x, y and z, from 0 on")
@@ -55,6 +68,26 @@ std::vector<std::string> ViewOptions::picture_arguments() const {
                                [](std::int64_t voxel) { return std::to_string(voxel); });
     }
     return all;
+}
+
+base::Status ViewOptions::open_session() {
+    if (session.empty()) {
+        return {};
+    }
+    const auto scene = scene::read(session);
+    if (!scene) {
+        return scene.error();
+    }
+    viewpoint_ = scene->viewpoint;
+    drawing.take(*scene);
+    if (size_option_ == nullptr || size_option_->count() == 0) {
+        size = std::to_string(scene->size.width) + "x" + std::to_string(scene->size.height);
+    }
+    if (quality_option_ == nullptr || quality_option_->count() == 0) {
+        constexpr std::array names{"draft", "normal", "high"};
+        quality = names[static_cast<std::size_t>(scene->quality.value_or(view::Quality::high))];
+    }
+    return {};
 }
 
 base::Result<view::ImageSize> ViewOptions::image_size() const {
@@ -89,8 +122,9 @@ base::Status ViewOptions::check(const view::Camera& camera) const {
 }
 
 base::Result<view::Camera> ViewOptions::camera(const view::Lattice& lattice) const {
-    const view::Camera made = view::camera_on(
-        orbit, lattice, parallel ? view::Projection::parallel : view::Projection::perspective, fov, height);
+    const auto projection = parallel ? view::Projection::parallel : view::Projection::perspective;
+    const view::Camera made = viewpoint_ ? view::camera(*viewpoint_, lattice)
+                                         : view::camera_on(orbit, lattice, projection, fov, height);
     if (const auto valid = check(made); !valid) {
         return valid.error();
     }

@@ -9,7 +9,7 @@
 
 #include "common/base/result.h"
 #include "common/options/drawing_options.h"
-#include "common/view/camera.h"
+#include "common/view/viewpoint.h"
 #include "deploy/stereo_options.h"
 
 namespace shearwater::deploy {
@@ -24,12 +24,15 @@ struct ViewOptions {
     options::DrawingOptions drawing;
     StereoOptions stereo;
     std::vector<std::int64_t> crop;  // first and last voxel along each axis; empty: the whole cube
+    std::string session;             // a file that says the rest; size and quality may be given besides
 
     // All of them; or those that do not say from where, nor by which transfer function.
     void add_to(CLI::App& app);
     void add_picture_to(CLI::App& app);
     // The latter, as they are given.
     std::vector<std::string> picture_arguments() const;
+    // Takes over what the session says, if there is one. To be called once the options are read.
+    base::Status open_session();
 
     // Whatever can be wrong before the cube is known.
     base::Result<view::ImageSize> image_size() const;
@@ -45,6 +48,11 @@ struct ViewOptions {
     base::Result<view::Camera> camera(const view::Lattice& lattice) const;
     // What of a cube is shown, checked.
     base::Result<std::optional<volume::Box>> crop_of(const view::Lattice& lattice) const;
+
+  private:
+    std::optional<view::Viewpoint> viewpoint_;  // the session's
+    const CLI::Option* size_option_ = nullptr;
+    const CLI::Option* quality_option_ = nullptr;
 };
 
 }  // namespace shearwater::deploy

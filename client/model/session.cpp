@@ -89,6 +89,7 @@ void Session::on_up() {
     answered_ = revision_;
     before_link_ = revision_;
     link_gauge_ = {};
+    picker_.give_up();
 }
 
 void Session::on_down(const wire::LinkDown& down, wire::Time now) {
@@ -129,6 +130,12 @@ void Session::on_message(const wire::Received& received, wire::Time now) {
         on_tree(std::move(*tree), now);
     } else if (std::holds_alternative<pb::Frame>(message.body)) {
         on_frame(received, now);
+    } else if (const auto* picked = std::get_if<pb::Picked>(&message.body)) {
+        const auto answer = picker_.answer(*picked, cube_);
+        if (!answer) {
+            return give_up(answer.error(), now);
+        }
+        picked_ = *answer ? *answer : picked_;
     } else {
         const std::string what = std::string(wire::name(message.body)) + " is not for a client";
         give_up({pb::REASON_BAD_TYPE, what}, now);
@@ -206,6 +213,7 @@ void Session::on_frame(const wire::Received& received, wire::Time now) {
     if (sent->eyes > 1) {
         picture_->right = std::move(eyes->back());
     }
+    picture_wish_ = sent->wish;
     retry_after_ = first_retry;
     ready_at_frame_ = tree_.in_phase(pb::PHASE_READY);
     forget_older_than(frame.revision());
@@ -256,6 +264,18 @@ void Session::want(const Wish& wish, Change change, wire::Time now) {
     send_if_due(now);
 }
 
+void Session::pick(Purpose purpose, const view::Vec2& at) {
+    const bool in_picture =
+        wish_ && at.x >= 0 && at.y >= 0 && at.x <= wish_->size.width && at.y <= wish_->size.height;
+    if (in_picture && described_ && connection_ == Connection::connected) {
+        wire::PickRequest request{.camera = camera(wish_->viewpoint, cube_->lattice),
+                                  .size = wish_->size,
+                                  .at = at,
+                                  .tf = wish_->tf};
+        effects_.push_back(wire::Send{link_, picker_.ask(purpose, std::move(request))});
+    }
+}
+
 void Session::set_effort(const Effort& effort, wire::Time now) {
     pace_.set(effort);
     refine(now);
@@ -297,7 +317,7 @@ void Session::send_view(wire::Time now) {
                           .stereo = fits ? wish_->stereo : std::nullopt,
                           .crop = is_of_cube ? wish_->crop : std::nullopt};
     effects_.push_back(wire::Send{link_, wire::message(wire::to_wire(view))});
-    sent_.push_back({revision_, view.size, view.stereo ? 2 : 1, view.quality, view.deflate, now,
+    sent_.push_back({revision_, *wish_, view.size, view.stereo ? 2 : 1, view.quality, view.deflate, now,
                      tree_.nodes.empty() || tree_.ready});
     sent_at_ = now;
     unsent_ = false;

@@ -17,6 +17,7 @@
 #include "client/model/link_gauge.h"
 #include "client/model/meter.h"
 #include "client/model/pace.h"
+#include "client/model/picker.h"
 #include "client/model/status.h"
 #include "client/model/viewpoint.h"
 #include "common/culling/settings.h"
@@ -66,12 +67,18 @@ class Session {
     void want(const Wish& wish, Change change, wire::Time now);
     // How well to draw it from now on.
     void set_effort(const Effort& effort, wire::Time now);
+    // What is to be seen at a point of the picture as it is wanted now. Of several the newest is answered,
+    // and none while there is no link.
+    void pick(Purpose purpose, const view::Vec2& at);
     // Dials at once when waiting or refused.
     void retry(wire::Time now);
 
     // Everything that came about since the last call.
     std::vector<wire::NetEffect> take_effects() { return std::exchange(effects_, {}); }
     std::optional<Picture> take_picture() { return std::exchange(picture_, std::nullopt); }
+    // What the last picture is of; nothing before the first.
+    const std::optional<Wish>& picture_wish() const { return picture_wish_; }
+    std::optional<Picked> take_picked() { return std::exchange(picked_, std::nullopt); }
 
     Status status(wire::Time now) const;
 
@@ -79,7 +86,8 @@ class Session {
     // A view that was sent and may still be answered.
     struct Sent {
         std::uint64_t revision;
-        view::ImageSize size;
+        Wish wish;
+        view::ImageSize size;  // asked for
         int eyes;
         view::Quality quality;
         bool deflated;
@@ -112,6 +120,7 @@ class Session {
     wire::Route server_;
     std::vector<wire::NetEffect> effects_;
     std::optional<Picture> picture_;
+    std::optional<Wish> picture_wish_;
 
     // The link.
     Connection connection_ = Connection::connecting;
@@ -144,6 +153,8 @@ class Session {
     Meter meter_;
     Pace pace_;
     LinkGauge link_gauge_;
+    Picker picker_;
+    std::optional<Picked> picked_;
 };
 
 }  // namespace shearwater::model

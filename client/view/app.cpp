@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "client/model/look.h"
+#include "client/view/navigation.h"
 #include "client/view/panel.h"
 #include "client/view/picture_area.h"
 #include "common/image/png.h"
@@ -41,12 +42,16 @@ App::App(Window& window, Network& network, AppOptions options)
     : window_(window),
       network_(network),
       options_(std::move(options)),
-      desk_(window.fonts(), window.scale()) {
+      desk_(window.fonts(), window.scale()),
+      files_(Window::wake) {
     desk_.wish.tf = options_.tf;
     desk_.wish.level_of_detail = options_.level_of_detail;
     desk_.wish.classify = options_.classify;
     desk_.wish.culling = options_.culling;
     desk_.effort = options_.effort;
+    if (options_.scene) {
+        files_.begin(desk_, options_.session, *options_.scene);
+    }
     desk_.status.words = "Starting ...";
 }
 
@@ -55,6 +60,8 @@ base::Status App::run() {
         window_.begin(patience());
         collect();
         widgets();
+        remember();
+        files_.attend(desk_, window_.take_drops(), desk_.seen, is_settled() && picture_wish_ == desk_.wish);
         send_wish();
         if (!options_.controls.empty()) {
             if (auto written = desk_.controls.write(options_.controls); !written) {
@@ -78,10 +85,12 @@ base::Status App::run() {
 // Redraws at once while something goes on, rarely when nothing does.
 double App::patience() const {
     const bool waits = desk_.picture.empty() || !options_.screenshot.empty();
-    return waits || ImGui::GetTime() < active_until_ ? 0.03 : 0.25;
+    const bool glides = desk_.transition.under_way() || (desk_.flying && desk_.dragging);
+    return glides ? 0.01 : waits || ImGui::GetTime() < active_until_ ? 0.03 : 0.25;
 }
 
 void App::collect() {
+    desk_.now = std::chrono::steady_clock::now();
     Network::Mail mail = network_.collect();
     if (mail.status) {
         desk_.status = std::move(*mail.status);
@@ -89,7 +98,8 @@ void App::collect() {
             const bool is_another = known_lattice_ && (known_lattice_->n != desk_.lattice().n ||
                                                        known_lattice_->spacing != desk_.lattice().spacing);
             if (is_another) {
-                desk_.reset_view();
+                desk_.transition.stop();
+                model::reset(desk_.wish.viewpoint);
                 desk_.wish.crop.reset();
                 desk_.eyes = {};
             }
@@ -97,16 +107,20 @@ void App::collect() {
         }
     }
     if (mail.picture) {
-        desk_.seen = std::move(*mail.picture);
-        desk_.picture_revision = desk_.seen.revision;
-        desk_.picture_quality = desk_.seen.quality;
+        desk_.picture_revision = mail.picture->revision;
+        desk_.picture_quality = mail.picture->quality;
+        desk_.seen = std::make_shared<const model::Picture>(*std::move(mail.picture));
+        picture_wish_ = std::move(mail.picture_wish);
         upload();
+    }
+    if (mail.picked) {
+        on_picked(*mail.picked);
     }
 }
 
 // The picture, or both eyes' as one.
 void App::upload() {
-    const model::Picture& seen = desk_.seen;
+    const model::Picture& seen = *desk_.seen;
     if (desk_.shown && !seen.right.empty()) {
         desk_.picture.upload(image::composed(seen.pixels, seen.right, *desk_.shown));
     } else {
@@ -119,7 +133,7 @@ void App::widgets() {
     desk_.dragging = false;
     desk_.retry = false;
     desk_.escape = false;
-    if (std::exchange(desk_.reshown, false) && !desk_.seen.pixels.empty()) {
+    if (std::exchange(desk_.reshown, false) && desk_.seen) {
         upload();
     }
     const ImVec2 all = ImGui::GetIO().DisplaySize;
@@ -127,6 +141,7 @@ void App::widgets() {
     const float status_size = desk_.px(status_height);
     const ImVec2 picture{all.x - panel_size, std::max(all.y - status_size, 1.0F)};
     keys();
+    navigate_on(desk_, window_);
     picture_area(desk_, {0, 0}, picture);
     status_line(desk_, {0, picture.y}, {picture.x, status_size});
     if (desk_.panel) {
@@ -144,19 +159,13 @@ void App::keys() {
 }
 
 void App::on_key(const KeyPress& press) {
-    model::Viewpoint& viewpoint = desk_.wish.viewpoint;
-    const view::ImageSize& size = desk_.wish.size;
-    const auto turn = [&](int right, int down) {
-        const double step = size.height * 5.0 / 180;  // 5 degrees
-        model::drag_orbit(viewpoint, step * right, step * down, size);
-        desk_.dragging = true;
-    };
-    const auto zoom = [&](double factor) {
-        if (desk_.has_cube()) {
-            model::zoom(viewpoint, factor, size.width / 2.0, size.height / 2.0, size, desk_.lattice());
-            desk_.dragging = true;
-        }
-    };
+    if (navigate_by_key(desk_, press)) {
+        return;
+    }
+    if (press.control) {
+        on_control_key(press);
+        return;
+    }
     switch (press.key) {
         case GLFW_KEY_TAB:
             desk_.panel = !desk_.panel;
@@ -164,45 +173,69 @@ void App::on_key(const KeyPress& press) {
         case GLFW_KEY_ESCAPE:
             desk_.escape = true;
             break;
-        case GLFW_KEY_R:
-            desk_.reset_view();
-            break;
-        case GLFW_KEY_P:
-            model::toggle_projection(viewpoint);
-            break;
         case GLFW_KEY_C:
             step_map(desk_.wish.tf, press.shift ? -1 : 1);
             break;
         case GLFW_KEY_I:
             reverse_map(desk_.wish.tf);
             break;
-        case GLFW_KEY_LEFT:
-            turn(1, 0);
+        default:
             break;
-        case GLFW_KEY_RIGHT:
-            turn(-1, 0);
-            break;
-        case GLFW_KEY_UP:
-            turn(0, 1);
-            break;
-        case GLFW_KEY_DOWN:
-            turn(0, -1);
-            break;
-        case GLFW_KEY_EQUAL:
-        case GLFW_KEY_KP_ADD:
-            zoom(0.9);
-            break;
-        case GLFW_KEY_MINUS:
-        case GLFW_KEY_KP_SUBTRACT:
-            zoom(1 / 0.9);
-            break;
+    }
+}
+
+void App::on_control_key(const KeyPress& press) {
+    switch (press.key) {
         case GLFW_KEY_Q:
-            if (press.control) {
-                window_.close();
-            }
+            window_.close();
+            break;
+        case GLFW_KEY_Z:
+            (press.shift ? desk_.redo : desk_.undo) = true;
+            break;
+        case GLFW_KEY_Y:
+            desk_.redo = true;
+            break;
+        case GLFW_KEY_S:
+            desk_.files.save = true;
+            break;
+        case GLFW_KEY_O:
+            desk_.files.open = true;
+            break;
+        case GLFW_KEY_P:
+            desk_.files.picture = true;
             break;
         default:
             break;
+    }
+}
+
+// Undo and redo, then what has been changed otherwise.
+void App::remember() {
+    for (const bool back : {true, false}) {
+        if (std::exchange(back ? desk_.undo : desk_.redo, false)) {
+            if (const auto state = back ? desk_.history.undo() : desk_.history.redo()) {
+                desk_.transition.stop();
+                model::restore(*state, desk_.wish);
+            }
+        }
+    }
+    if (desk_.has_cube()) {
+        desk_.history.observe(model::remembered(desk_.wish), desk_.dragging, desk_.now);
+    }
+}
+
+void App::on_picked(const model::Picked& picked) {
+    if (picked.purpose == model::Purpose::read) {
+        if (desk_.read_at == picked.at) {
+            desk_.read = picked;
+        }
+    } else if (!desk_.has_cube()) {
+        return;
+    } else if (picked.hit) {
+        const view::Vec3 point = desk_.lattice().world_from_voxel(picked.hit->voxel);
+        desk_.jump_by([&](model::Viewpoint& to) { model::set_pivot(to, point, desk_.lattice()); });
+    } else {
+        desk_.say(picked.incomplete ? "What is there is not loaded" : "There is nothing to turn about");
     }
 }
 
@@ -224,6 +257,9 @@ void App::send_wish() {
     if (desk_.wish != sent_) {
         sent_ = desk_.wish;
         network_.want(sent_, desk_.dragging ? model::Change::dragging : model::Change::single);
+    }
+    if (const auto pick = std::exchange(desk_.pick, std::nullopt)) {
+        network_.pick(pick->purpose, pick->at);
     }
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "client/view/desk.h"
+#include "client/view/files.h"
 #include "client/view/network.h"
 #include "client/view/window.h"
 
@@ -15,6 +16,8 @@ struct AppOptions {
     view::Classify classify = view::Classify::post;
     culling::Settings culling;
     model::Effort effort;
+    std::optional<scene::Scene> scene;  // to begin with, read from:
+    std::string session;
     std::string controls;    // a file that tells where the controls are; none when empty
     std::string screenshot;  // a file to write the window to once a whole high picture is seen; then it ends
 };
@@ -33,6 +36,9 @@ class App {
     void widgets();
     void keys();
     void on_key(const KeyPress& press);
+    void on_control_key(const KeyPress& press);
+    void on_picked(const model::Picked& picked);
+    void remember();
     void send_wish();
     bool is_settled() const;
 
@@ -40,6 +46,8 @@ class App {
     Network& network_;
     const AppOptions options_;
     Desk desk_;
+    Files files_;
+    model::Wish picture_wish_;  // of the last picture
     model::Wish sent_;
     model::Effort sent_effort_;
     std::optional<view::Lattice> known_lattice_;

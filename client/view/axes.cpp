@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace shearwater::ui {
 
@@ -20,12 +19,7 @@ struct Axis {
 }  // namespace
 
 void draw_axes(const Desk& desk, ImVec2 centre) {
-    constexpr double radians = std::numbers::pi / 180;
-    const view::Orbit& orbit = desk.wish.viewpoint.orbit;
-    const double az = orbit.azimuth * radians, el = orbit.elevation * radians;
-    const view::Vec3 right{std::cos(az), 0, -std::sin(az)};
-    const view::Vec3 up{-std::sin(az) * std::sin(el), std::cos(el), -std::cos(az) * std::sin(el)};
-    const view::Vec3 back = glm::cross(right, up);
+    const auto [right, up, back] = view::picture_axes(desk.wish.viewpoint.orbit);
     std::array axes{Axis{"x", {1, 0, 0}, IM_COL32(232, 110, 104, 255)},
                     Axis{"y", {0, 1, 0}, IM_COL32(120, 200, 130, 255)},
                     Axis{"z", {0, 0, 1}, IM_COL32(106, 160, 250, 255)}};

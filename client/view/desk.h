@@ -1,16 +1,34 @@
 #pragma once
 // What the widgets draw from and change in one pass; the app turns the changes into wishes.
 
+#include <array>
+#include <memory>
 #include <string>
 
 #include "client/model/crop.h"
+#include "client/model/history.h"
+#include "client/model/keeping.h"
 #include "client/model/session.h"
+#include "client/model/transition.h"
 #include "client/view/controls.h"
 #include "client/view/eye_areas.h"
 #include "client/view/texture.h"
 #include "client/view/theme.h"
 
 namespace shearwater::ui {
+
+// What is to be said for a while.
+struct Saying {
+    std::string words;
+    bool is_bad = false;
+    double until = 0;  // seconds of ImGui's clock
+};
+
+// What is asked of files in one pass.
+struct FileWishes {
+    bool save = false, open = false, picture = false;
+    bool restore = false, dismiss = false;  // what was left behind
+};
 
 struct Desk {
     Desk(theme::Fonts fonts_in, float scale_in) : fonts(fonts_in), scale(scale_in) {}
@@ -21,7 +39,7 @@ struct Desk {
     // From the network.
     model::Status status;
     Texture picture;
-    model::Picture seen;  // that the picture is made from
+    std::shared_ptr<const model::Picture> seen;  // that the picture is made from
     std::uint64_t picture_revision = 0;
     view::Quality picture_quality = view::Quality::normal;
 
@@ -44,13 +62,64 @@ struct Desk {
     Controls controls;
     int ramp_end = -1;  // the ramp's end being dragged: 0, 1, or none
 
+    // Navigation.
+    wire::Time now{};  // of this pass
+    model::Transition transition;
+    bool flying = false;
+    double pace = 1;                            // of flight
+    model::Units units = model::Units::voxels;  // that targets are shown in
+    bool numbers = false;                       // the camera's are shown
+    model::History<model::Remembered> history;
+    bool undo = false, redo = false;  // asked for in this pass
+
+    // What is under the mouse.
+    struct PickWish {
+        model::Purpose purpose;
+        view::Vec2 at;  // of the picture
+    };
+    std::optional<PickWish> pick;  // to be asked in this pass
+    bool reading = false;          // it is shown while the mouse rests
+    std::optional<model::Picked> read;
+    std::optional<view::Vec2> read_at;  // asked last
+
+    // Files.
+    std::array<char, 512> file{};  // the session's, as it is typed
+    FileWishes files;
+    bool offers_restoring = false;
+    Saying saying;
+
     void show(const Shown& how) {
         shown = how;
         reshown = true;
     }
     float px(float nominal) const { return nominal * scale; }
     bool has_cube() const { return status.cube.has_value(); }
-    void reset_view() { wish.viewpoint = {.orbit = {}, .projection = wish.viewpoint.projection}; }
+    void say(std::string words, bool is_bad = false) {
+        saying = {base::printable(words, 300), is_bad, ImGui::GetTime() + (is_bad ? 12 : 5)};
+    }
+    // The viewpoint, to be changed by hand now.
+    model::Viewpoint& steer() {
+        transition.stop();
+        dragging = true;
+        return wish.viewpoint;
+    }
+    // Where the view comes to rest, if nothing else happens, and the way to another place.
+    const model::Viewpoint& heading() const {
+        return transition.under_way() ? *transition.destination() : wish.viewpoint;
+    }
+    void jump(const model::Viewpoint& to) {
+        if (has_cube()) {
+            transition.begin(wish.viewpoint, to, now, lattice());
+        } else {
+            wish.viewpoint = to;
+        }
+    }
+    template <class Change>
+    void jump_by(const Change& change) {
+        model::Viewpoint to = heading();
+        change(to);
+        jump(to);
+    }
     view::Quality best_quality() const { return effort.fixed.value_or(view::Quality::high); }
     const view::Lattice& lattice() const { return status.cube->lattice; }
 };

@@ -41,12 +41,22 @@ struct HelpLine {
 constexpr HelpLine help_lines[] = {
     {"Left drag", "turn"},
     {"Right drag, Shift left drag", "move"},
+    {"Alt left drag; comma, period", "roll"},
     {"Wheel", "zoom at the cursor"},
-    {"Double click, R", "reset the view"},
+    {"Double click", "turn about what is there"},
+    {"V, or hold Ctrl", "voxel and value at the cursor"},
+    {"R; 0", "reset the view; fit the cube in"},
+    {"1 to 6", "look from +x, -x, +y, -y, +z, -z"},
     {"P", "perspective or parallel"},
+    {"F", "fly, and land again (or Escape)"},
+    {"  W A S D, Space, X", "ahead, aside, back, up, down"},
+    {"  Left drag, wheel", "look around, how fast"},
     {"C, Shift C", "next, previous colour map"},
     {"I", "reverse the colour map"},
     {"Arrows, +, -", "turn, zoom"},
+    {"Ctrl Z, Ctrl Y", "undo, redo"},
+    {"Ctrl S, Ctrl O", "save, open the session"},
+    {"Ctrl P", "save the picture, with its session"},
     {"Tab", "hide or show this panel"},
     {"Ctrl Q", "quit"},
 };
@@ -71,6 +81,7 @@ void link_section(Desk& desk) {
     ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - side);
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - desk.px(2));
     ImGui::Button("?", {side, side});
+    desk.controls.note("help");
     if (ImGui::IsItemHovered()) {
         help(desk);
     }

@@ -53,6 +53,13 @@ void Network::retry() {
     });
 }
 
+void Network::pick(model::Purpose purpose, const view::Vec2& at) {
+    asio::post(io_, [this, purpose, at] {
+        session_.pick(purpose, at);
+        carry_out();
+    });
+}
+
 Network::Mail Network::collect() {
     const std::lock_guard lock(mutex_);
     return std::exchange(mail_, {});
@@ -94,11 +101,14 @@ void Network::carry_out() {
         hub_.perform(std::move(effect));
     }
     auto picture = session_.take_picture();
+    const auto picked = session_.take_picked();
     const std::lock_guard lock(mutex_);
     mail_.status = session_.status(Clock::now());
     if (picture) {
         mail_.picture = std::move(picture);
+        mail_.picture_wish = session_.picture_wish().value();
     }
+    mail_.picked = picked ? picked : mail_.picked;
 }
 
 }  // namespace shearwater::ui

@@ -26,11 +26,15 @@ class Network {
     void want(const model::Wish& wish, model::Change change);
     void set_effort(const model::Effort& effort);
     void retry();
+    // What is to be seen at a point of the picture that is wanted.
+    void pick(model::Purpose purpose, const view::Vec2& at);
 
-    // The newest status and picture, each given once.
+    // The newest of each, given once.
     struct Mail {
         std::optional<model::Status> status;
         std::optional<model::Picture> picture;
+        model::Wish picture_wish;  // what the picture is of
+        std::optional<model::Picked> picked;
     };
     Mail collect();
 

@@ -54,7 +54,8 @@ std::optional<Notice> banner_for(const Desk& desk) {
     return std::nullopt;
 }
 
-void banner(const Desk& desk, const Notice& notice, ImVec2 from, ImVec2 size) {
+// At `top` of the picture, window coordinates.
+void banner(const Desk& desk, const Notice& notice, ImVec2 from, ImVec2 size, float top) {
     ImFont* title_font = desk.fonts.text;
     ImFont* detail_font = desk.fonts.small;
     const float pad = desk.px(12), gap = desk.px(10), mark = desk.px(3);
@@ -63,7 +64,7 @@ void banner(const Desk& desk, const Notice& notice, ImVec2 from, ImVec2 size) {
     const ImVec2 detail =
         detail_font->CalcTextSizeA(detail_font->FontSize, FLT_MAX, 0, notice.detail.c_str());
     const float width = std::min(room, title.x + gap + detail.x) + 2 * pad;
-    const ImVec2 at{std::round(from.x + (size.x - width) / 2), from.y + desk.px(16)};
+    const ImVec2 at{std::round(from.x + (size.x - width) / 2), top};
     const ImVec2 to{at.x + width, at.y + title.y + desk.px(14)};
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(at, to, IM_COL32(26, 28, 34, 235), desk.px(6));
@@ -142,8 +143,34 @@ void notices(const Desk& desk, ImVec2 from, ImVec2 size) {
         progress_card(desk, *progress, from, size);
     }
     if (const auto notice = banner_for(desk)) {
-        banner(desk, *notice, from, size);
+        banner(desk, *notice, from, size, from.y + desk.px(16));
     }
+    if (ImGui::GetTime() < desk.saying.until) {
+        const Notice said{desk.saying.is_bad ? theme::bad : theme::text, "", desk.saying.words};
+        banner(desk, said, from, size, from.y + size.y - desk.px(56));
+    }
+}
+
+void offers(Desk& desk, ImVec2 from, ImVec2 size) {
+    if (!desk.offers_restoring) {
+        return;
+    }
+    ImGui::SetNextWindowPos({from.x + size.x / 2, from.y + desk.px(56)}, 0, {0.5F, 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, desk.px(6));
+    ImGui::Begin("offer", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
+                     ImGuiWindowFlags_NoNav);
+    ImGui::AlignTextToFramePadding();
+    text(theme::text, "A window on this cube did not end well.");
+    ImGui::SameLine();
+    desk.files.restore = ImGui::Button("Restore its view");
+    desk.controls.note("offer/restore");
+    ImGui::SameLine();
+    desk.files.dismiss = ImGui::Button("No");
+    desk.controls.note("offer/dismiss");
+    ImGui::End();
+    ImGui::PopStyleVar();
 }
 
 }  // namespace shearwater::ui

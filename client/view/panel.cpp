@@ -15,6 +15,7 @@ void panel(Desk& desk, ImVec2 from, ImVec2 size) {
     link_section(desk);
     cube_section(desk);
     camera_section(desk);
+    session_section(desk);
     colour_section(desk);
     speed_section(desk);
     crop_section(desk);

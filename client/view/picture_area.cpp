@@ -8,6 +8,7 @@
 #include "client/view/axes.h"
 #include "client/view/box_edges.h"
 #include "client/view/crop_handles.h"
+#include "client/view/navigation.h"
 #include "client/view/notices.h"
 #include "client/view/widgets.h"
 
@@ -56,43 +57,12 @@ void draw_picture(const Desk& desk, ImVec2 from, ImVec2 size) {
                                          {1, 1}, tint);
 }
 
-void drag(Desk& desk, float to_pixels) {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (io.MouseDelta.x == 0 && io.MouseDelta.y == 0) {
-        return;
-    }
-    const double dx = static_cast<double>(io.MouseDelta.x * to_pixels);
-    const double dy = static_cast<double>(io.MouseDelta.y * to_pixels);
-    const bool pans =
-        io.MouseDown[ImGuiMouseButton_Right] || io.MouseDown[ImGuiMouseButton_Middle] || io.KeyShift;
-    if (pans) {
-        model::pan(desk.wish.viewpoint, dx, dy, desk.wish.size, desk.lattice());
-    } else {
-        model::drag_orbit(desk.wish.viewpoint, dx, dy, desk.wish.size);
-    }
-    desk.dragging = true;
-}
-
-void wheel(Desk& desk, const std::vector<EyeArea>& areas) {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (io.MouseWheel == 0) {
-        return;
-    }
-    constexpr double per_notch = 0.88;
-    const auto under = std::ranges::find_if(areas, [&](const EyeArea& a) { return a.contains(io.MousePos); });
-    const EyeArea& area = under != areas.end() ? *under : areas.front();
-    const view::Vec2 at = area.to_pixels(io.MousePos, desk.wish.size);
-    model::zoom(desk.wish.viewpoint, std::pow(per_notch, static_cast<double>(io.MouseWheel)), at.x, at.y,
-                desk.wish.size, desk.lattice());
-    desk.dragging = true;
-}
-
 // What is drawn over the picture where the box is cropped that it shows.
 void crop_over_picture(Desk& desk, const std::vector<EyeArea>& areas) {
     if (!desk.cropping || !desk.has_cube() || desk.picture.empty()) {
         return;
     }
-    const view::Camera camera = model::camera(desk.wish.viewpoint, desk.lattice());
+    const view::Camera camera = view::camera(desk.wish.viewpoint, desk.lattice());
     const std::vector<view::Camera> eyes = cameras_of_areas(desk.shown, camera, desk.eyes);
     for (std::size_t n = 0; n < eyes.size(); ++n) {
         draw_box_edges(desk, areas[n], eyes[n]);
@@ -100,31 +70,14 @@ void crop_over_picture(Desk& desk, const std::vector<EyeArea>& areas) {
     }
 }
 
-void mouse(Desk& desk, const std::vector<EyeArea>& areas, ImVec2 from, ImVec2 size) {
-    ImGui::SetCursorScreenPos(from);
-    ImGui::InvisibleButton("picture", size,
-                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
-                               ImGuiButtonFlags_MouseButtonMiddle);
-    if (!desk.has_cube()) {
-        return;
-    }
-    const float to_pixels = static_cast<float>(desk.wish.size.width) / areas.front().size.x;
-    // In the pass that presses the button the mouse may have come from afar.
-    if (ImGui::IsItemActive() && !ImGui::IsItemActivated()) {
-        drag(desk, to_pixels);
-    }
-    if (ImGui::IsItemHovered()) {
-        wheel(desk, areas);
-        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-            desk.reset_view();
-        }
-    }
-}
-
 std::string view_text(const Desk& desk) {
     const model::Viewpoint& viewpoint = desk.wish.viewpoint;
-    std::string words =
+    std::string words = desk.flying ? "flying  " : "";
+    words +=
         fmt::format("az {:.0f}\u00b0  el {:.0f}\u00b0", viewpoint.orbit.azimuth, viewpoint.orbit.elevation);
+    if (viewpoint.orbit.roll != 0) {
+        words += fmt::format("  roll {:.0f}\u00b0", viewpoint.orbit.roll);
+    }
     if (!desk.picture.empty()) {
         words += fmt::format("   {} \u00d7 {}", desk.picture.width(), desk.picture.height());
     }
@@ -183,7 +136,8 @@ void picture_area(Desk& desk, ImVec2 from, ImVec2 size) {
     ImGui::Begin("picture area", nullptr, bare | ImGuiWindowFlags_NoScrollWithMouse);
     draw_picture(desk, from, size);
     crop_over_picture(desk, areas);
-    mouse(desk, areas, from, size);
+    navigate_by_mouse(desk, areas, from, size);
+    draw_reading(desk);
     if (!desk.picture.empty()) {
         const float inset = desk.px(axes_radius + 14);
         draw_axes(desk, {from.x + inset, from.y + size.y - inset});
@@ -192,6 +146,7 @@ void picture_area(Desk& desk, ImVec2 from, ImVec2 size) {
     ImGui::End();
     ImGui::PopStyleColor();
     ImGui::PopStyleVar();
+    offers(desk, from, size);
 }
 
 void status_line(const Desk& desk, ImVec2 from, ImVec2 size) {

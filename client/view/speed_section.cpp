@@ -41,7 +41,7 @@ void speed(const Desk& desk) {
 void quality(Desk& desk) {
     std::optional<view::Quality>& fixed = desk.effort.fixed;
     const int held = fixed ? static_cast<int>(*fixed) + 1 : 0;
-    const int holds = switch_among(desk, {"Auto", "Draft", "Normal", "High"}, held);
+    const int holds = switch_among(desk, "quality", {"Auto", "Draft", "Normal", "High"}, held);
     fixed = holds > 0 ? std::optional(static_cast<view::Quality>(holds - 1)) : std::nullopt;
     ImGui::BeginDisabled(fixed.has_value());
     float rate = static_cast<float>(desk.effort.target_rate);

@@ -76,7 +76,7 @@ void dot(const Desk& desk, ImU32 colour) {
     ImGui::SameLine();
 }
 
-int switch_among(const Desk& desk, std::initializer_list<const char*> labels, int holds) {
+int switch_among(Desk& desk, const std::string& name, std::initializer_list<const char*> labels, int holds) {
     const float count = static_cast<float>(labels.size());
     const float gap = desk.px(4);
     const float width = (ImGui::GetContentRegionAvail().x - gap * (count - 1)) / count;
@@ -91,12 +91,17 @@ int switch_among(const Desk& desk, std::initializer_list<const char*> labels, in
             ImGui::PushStyleColor(ImGuiCol_ButtonHovered, IM_COL32(50, 84, 132, 255));
         }
         holds_now = ImGui::Button(label, {width, 0}) ? i : holds_now;
+        desk.controls.note(name + "/" + label);
         if (i == holds) {
             ImGui::PopStyleColor(2);
         }
         ++i;
     }
     return holds_now;
+}
+
+int button_row(Desk& desk, const std::string& name, std::initializer_list<const char*> labels) {
+    return switch_among(desk, name, labels, -1);
 }
 
 void progress_line(const Desk& desk, double fraction, ImU32 colour, float width) {

@@ -21,8 +21,10 @@ void small_text(const Desk& desk, ImU32 colour, const std::string& text);
 bool section(Desk& desk, const char* title, bool unfolded_at_first = true);
 // A filled circle of the line's height, where the cursor is; the next item follows on the same line.
 void dot(const Desk& desk, ImU32 colour);
-// Buttons side by side, one of which holds. The one that does afterwards.
-int switch_among(const Desk& desk, std::initializer_list<const char*> labels, int holds);
+// Buttons side by side, one of which holds. The one that does afterwards. They are noted as NAME/LABEL.
+int switch_among(Desk& desk, const std::string& name, std::initializer_list<const char*> labels, int holds);
+// Buttons side by side, noted likewise. The one that was pressed, or -1.
+int button_row(Desk& desk, const std::string& name, std::initializer_list<const char*> labels);
 // A share done, thin.
 void progress_line(const Desk& desk, double fraction, ImU32 colour, float width);
 // The pins' colours from left to right.

@@ -56,6 +56,7 @@ Window::Window(GLFWwindow* window, float scale) : window_(window), scale_(scale)
     fonts_ = theme::apply(scale_);
     glfwSetWindowUserPointer(window_, this);
     glfwSetKeyCallback(window_, on_key);  // ImGui's, set now, calls it too
+    glfwSetDropCallback(window_, on_drop);
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
     ImGui_ImplOpenGL3_Init("#version 150");
 }
@@ -83,6 +84,20 @@ void Window::on_key(GLFWwindow* window, int key, int, int action, int mods) {
         static_cast<Window*>(glfwGetWindowUserPointer(window))
             ->keys_.push_back({key, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0});
     }
+}
+
+// More at once than a person means are passed over.
+void Window::on_drop(GLFWwindow* window, int count, const char** paths) {
+    constexpr int most = 16;
+    std::vector<std::string>& drops = static_cast<Window*>(glfwGetWindowUserPointer(window))->drops_;
+    for (int i = 0; i < std::min(count, most); ++i) {
+        drops.emplace_back(paths[i]);
+    }
+}
+
+bool Window::is_down(int key) const {
+    const auto held = [this](int each) { return glfwGetKey(window_, each) == GLFW_PRESS; };
+    return held(key) && !held(GLFW_KEY_LEFT_CONTROL) && !held(GLFW_KEY_RIGHT_CONTROL);
 }
 
 void Window::begin(double wait_seconds) {

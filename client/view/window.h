@@ -2,6 +2,7 @@
 // The operating system's window with a graphics context and Dear ImGui in it.
 
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,10 @@ class Window {
     void begin(double wait_seconds);
     // The keys pressed since the last call, however short. (Dear ImGui sees only what is down in a pass.)
     std::vector<KeyPress> take_keys() { return std::exchange(keys_, {}); }
+    // Whether a key is held down now, and no control key with it.
+    bool is_down(int key) const;
+    // Files that were dropped on the window since the last call.
+    std::vector<std::string> take_drops() { return std::exchange(drops_, {}); }
     // Draws the pass to the hidden buffer; the picture is seen after show().
     void draw();
     image::Image<image::Rgba8> read_pixels() const;
@@ -52,11 +57,13 @@ class Window {
   private:
     Window(GLFWwindow* window, float scale);
     static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
+    static void on_drop(GLFWwindow* window, int count, const char** paths);
 
     GLFWwindow* window_;
     float scale_;
     theme::Fonts fonts_;
     std::vector<KeyPress> keys_;
+    std::vector<std::string> drops_;
 };
 
 }  // namespace shearwater::ui

@@ -11,6 +11,8 @@
 #include <memory>
 #include <system_error>
 
+#include "common/image/png_note.h"
+
 namespace shearwater::image {
 
 namespace {
@@ -61,7 +63,8 @@ std::vector<std::uint8_t> without_alpha(const Image<Rgba8>& image) {
     return bytes;
 }
 
-base::Status write_to(std::FILE* file, const Image<Rgba8>& image, const std::string& operation) {
+base::Status write_to(std::FILE* file, const Image<Rgba8>& image, const std::string& note,
+                      const std::string& operation) {
     PngImage png;
     png->width = static_cast<png_uint_32>(image.width());
     png->height = static_cast<png_uint_32>(image.height());
@@ -73,8 +76,17 @@ base::Status write_to(std::FILE* file, const Image<Rgba8>& image, const std::str
         pixels = rgb.data();
         png->format = PNG_FORMAT_RGB;
     }
-    if (png_image_write_to_stdio(png.get(), file, 0, pixels, 0, nullptr) == 0) {
+    png_alloc_size_t bytes = PNG_IMAGE_PNG_SIZE_MAX(*png.get());
+    std::vector<std::uint8_t> coded(bytes);
+    if (png_image_write_to_memory(png.get(), coded.data(), &bytes, 0, pixels, 0, nullptr) == 0) {
         return png.fault(base::Code::io, operation);
+    }
+    coded.resize(bytes);
+    if (!note.empty()) {
+        put_png_note(coded, note);
+    }
+    if (std::fwrite(coded.data(), 1, coded.size(), file) != coded.size()) {
+        return failed(operation);
     }
     if (std::fflush(file) != 0) {
         return failed(operation);
@@ -83,14 +95,16 @@ base::Status write_to(std::FILE* file, const Image<Rgba8>& image, const std::str
 }
 
 // Writes a new file beside the target and moves it there, so that nobody sees half a picture.
-base::Status write_beside(const std::string& path, const Image<Rgba8>& image, const std::string& operation) {
+base::Status write_beside(const std::string& path, const Image<Rgba8>& image, const std::string& note,
+                          const std::string& operation) {
     const std::string part = path + "." + std::to_string(getpid()) + ".part";
     const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (descriptor < 0) {
         return failed(operation);
     }
     File file(fdopen(descriptor, "wb"));
-    base::Status written = file ? write_to(file.get(), image, operation) : base::Status(failed(operation));
+    base::Status written =
+        file ? write_to(file.get(), image, note, operation) : base::Status(failed(operation));
     if (file && std::fclose(file.release()) != 0 && written) {
         written = failed(operation);
     }
@@ -110,13 +124,13 @@ bool is_written_in_place(const std::string& path) {
     return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
 }
 
-base::Status write_in_place(const std::string& path, const Image<Rgba8>& image,
+base::Status write_in_place(const std::string& path, const Image<Rgba8>& image, const std::string& note,
                             const std::string& operation) {
     File file(std::fopen(path.c_str(), "wb"));
     if (!file) {
         return failed(operation);
     }
-    if (auto written = write_to(file.get(), image, operation); !written) {
+    if (auto written = write_to(file.get(), image, note, operation); !written) {
         return written;
     }
     if (std::fclose(file.release()) != 0) {
@@ -127,14 +141,14 @@ base::Status write_in_place(const std::string& path, const Image<Rgba8>& image,
 
 }  // namespace
 
-base::Status write_png(const std::string& path, const Image<Rgba8>& image) {
+base::Status write_png(const std::string& path, const Image<Rgba8>& image, const std::string& note) {
     base::check(!image.empty(), "a picture has pixels");
     if (path == "-") {
-        return write_to(stdout, image, "write picture to standard output");
+        return write_to(stdout, image, note, "write picture to standard output");
     }
     const std::string operation = "write picture " + path;
-    return is_written_in_place(path) ? write_in_place(path, image, operation)
-                                     : write_beside(path, image, operation);
+    return is_written_in_place(path) ? write_in_place(path, image, note, operation)
+                                     : write_beside(path, image, note, operation);
 }
 
 base::Result<Image<Rgba8>> read_png(const std::string& path) {

@@ -53,6 +53,9 @@ void DrawingOptions::add_culling_threshold(CLI::App& app, const std::string& gro
 }
 
 base::Result<view::TransferFunction> DrawingOptions::transfer_function() const {
+    if (taken_tf) {
+        return *taken_tf;
+    }
     return tf_file.empty() ? view::default_transfer_function() : read_transfer_function(tf_file);
 }
 
@@ -63,6 +66,28 @@ view::Classify DrawingOptions::classification() const {
 culling::Settings DrawingOptions::culling_settings() const {
     const auto found = std::find(culling::kind_names.begin(), culling::kind_names.end(), culling);
     return {static_cast<culling::Kind>(found - culling::kind_names.begin()), culling_threshold};
+}
+
+void DrawingOptions::take(const scene::Scene& scene) {
+    taken_tf = scene.tf;
+    classify = scene.classify == view::Classify::pre_integrated ? "pre-integrated" : "post";
+    lod = !scene.level_of_detail ? "" : *scene.level_of_detail ? "on" : "off";
+    culling = culling::kind_names[static_cast<std::size_t>(scene.culling.kind)];
+    culling_threshold = scene.culling.threshold;
+}
+
+std::vector<std::string> DrawingOptions::names() {
+    return {"--tf", "--classify", "--lod", "--culling", "--culling-threshold"};
+}
+
+void add_session(CLI::App& app, std::string& path, const std::vector<std::string>& instead_of,
+                 const std::string& group) {
+    CLI::Option* const session =
+        app.add_option("--session", path, "the view that a window has saved: its file, or a picture of it")
+            ->group(group);
+    for (const std::string& name : instead_of) {
+        session->excludes(app.get_option(name));
+    }
 }
 
 std::vector<std::string> DrawingOptions::arguments() const {

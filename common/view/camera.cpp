@@ -23,6 +23,15 @@ base::Status refuse(std::string detail) {
 
 }  // namespace
 
+PictureAxes picture_axes(const Orbit& orbit) {
+    const double az = radians(orbit.azimuth), el = radians(orbit.elevation), roll = radians(orbit.roll);
+    const Vec3 right{std::cos(az), 0, -std::sin(az)};
+    const Vec3 up{-std::sin(az) * std::sin(el), std::cos(el), -std::cos(az) * std::sin(el)};
+    return {.right = std::cos(roll) * right - std::sin(roll) * up,
+            .up = std::cos(roll) * up + std::sin(roll) * right,
+            .back = glm::cross(right, up)};
+}
+
 Camera camera_on(const Orbit& orbit, const Lattice& lattice, Projection projection, double fov,
                  double height) {
     const double az = radians(orbit.azimuth);
@@ -35,7 +44,7 @@ Camera camera_on(const Orbit& orbit, const Lattice& lattice, Projection projecti
                  distance * Vec3(std::sin(az) * std::cos(el), std::sin(el), std::cos(az) * std::cos(el));
     // Over a pole +y is the line of sight; the limit of the pictures on the way there is still a picture.
     const bool over_pole = std::abs(std::cos(el)) < 1e-6;
-    camera.up = over_pole ? Vec3(-std::sin(az), 0, -std::cos(az)) * std::sin(el) : Vec3(0, 1, 0);
+    camera.up = over_pole || orbit.roll != 0 ? picture_axes(orbit).up : Vec3(0, 1, 0);
     camera.projection = projection;
     camera.fov = fov;
     camera.height = height > 0 ? height : lattice.diagonal();

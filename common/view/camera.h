@@ -38,7 +38,16 @@ struct Orbit {
     double elevation = 20;
     double distance = 0;  // 0: far enough that the whole cube is seen
     Vec3 target{0, 0, 0};
+    double roll = 0;  // degrees that the camera leans to its right, so that the picture turns to the left
+
+    bool operator==(const Orbit&) const = default;
 };
+
+// Where the sides of an orbit's picture point in world space: unit vectors, square to one another.
+struct PictureAxes {
+    Vec3 right, up, back;  // back: towards the eye
+};
+PictureAxes picture_axes(const Orbit& orbit);
 
 // The camera of an orbit. A height or distance of 0 becomes the design's default for the lattice:
 // distance = (diagonal / 2) / sin(fov / 2), height = diagonal.

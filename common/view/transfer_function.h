@@ -72,6 +72,7 @@ base::Status validate(const TransferFunction& tf);
 
 // The TOML form of design section 3. An unknown key or kind is refused by name.
 base::Result<TransferFunction> transfer_function_from_toml(std::string_view text, std::string_view source);
-std::string to_toml(const TransferFunction& tf);
+// `within`: the table of a larger document that the text stands in, whose heading is written before it.
+std::string to_toml(const TransferFunction& tf, const std::string& within = {});
 
 }  // namespace shearwater::view

@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <optional>
 
-#include "common/view/transfer_function.h"
+#include "common/view/transfer_function_table.h"
 
 namespace shearwater::view {
 
@@ -221,8 +221,13 @@ base::Result<TransferFunction> transfer_function_from_toml(std::string_view text
         return base::error(base::Code::corrupt, operation,
                            fmt::format("line {}: {}", fault.source().begin.line, fault.description()));
     }
+    return transfer_function_from_table(root, operation);
+}
+
+base::Result<TransferFunction> transfer_function_from_table(const toml::table& table,
+                                                            const std::string& operation) {
     Reader reader;
-    TransferFunction tf = reader.read(root);
+    TransferFunction tf = reader.read(table);
     if (!reader.fault().empty()) {
         return base::error(base::Code::invalid_argument, operation, reader.fault());
     }
@@ -232,7 +237,8 @@ base::Result<TransferFunction> transfer_function_from_toml(std::string_view text
     return tf;
 }
 
-std::string to_toml(const TransferFunction& tf) {
+std::string to_toml(const TransferFunction& tf, const std::string& within) {
+    const std::string in = within.empty() ? "" : within + ".";
     std::string out = colours_text(tf.colour_pins);
     const bool named = !out.empty();
     if (tf.background != Rgb{}) {
@@ -240,13 +246,14 @@ std::string to_toml(const TransferFunction& tf) {
     }
     if (!named) {
         for (const ColourPin& pin : tf.colour_pins) {
-            out += fmt::format("\n[[colour]]\nat = {}\nrgb = {}\n", text(pin.at), rgb_text(pin.rgb));
+            out += fmt::format("\n[[{}colour]]\nat = {}\nrgb = {}\n", in, text(pin.at), rgb_text(pin.rgb));
         }
     }
     for (const OpacityPin& pin : tf.opacity_pins) {
-        out += "\n[[opacity]]\n" + std::visit([](const auto& p) { return pin_text(p); }, pin);
+        out +=
+            fmt::format("\n[[{}opacity]]\n", in) + std::visit([](const auto& p) { return pin_text(p); }, pin);
     }
-    return out;
+    return within.empty() ? out : fmt::format("[{}]\n", within) + out;
 }
 
 }  // namespace shearwater::view

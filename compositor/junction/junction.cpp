@@ -58,6 +58,9 @@ Effects Junction::handle(const wire::NetEvent& event, wire::Time now) {
     for (wire::Message& functions : branch_.take_functions()) {
         member_.tell_parent(std::move(functions), effects.net);
     }
+    for (const wire::RayPart& part : branch_.take_probed()) {
+        member_.tell_parent(wire::message(wire::to_wire(part)), effects.net);
+    }
     for (node::MergeJob& job : branch_.take_complete()) {
         effects.merges.push_back({std::move(job)});
     }
@@ -97,6 +100,12 @@ void Junction::on_parent_message(const wire::Received& received, wire::Time now,
         branch_.begin(*factorisation, *render, now, effects.net);
     } else if (const auto* cancel = std::get_if<pb::Cancel>(&message.body)) {
         branch_.cancel(cancel->frame(), effects.net);
+    } else if (const auto* probe = std::get_if<pb::Probe>(&message.body)) {
+        if (const auto ray = wire::ray_from(*probe)) {
+            branch_.probe(*ray, *probe, now, effects.net);
+        } else {
+            effects.net.emplace_back(wire::CloseLink{received.link, ray.error().reason, ray.error().text});
+        }
     } else if (std::holds_alternative<pb::WantFunctions>(message.body)) {
         branch_.want_functions(message, effects.net);
     } else if (std::holds_alternative<pb::SetMapping>(message.body)) {

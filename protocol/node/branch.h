@@ -14,6 +14,7 @@
 #include "common/view/factorisation.h"
 #include "common/volume/histogram.h"
 #include "protocol/node/merge.h"
+#include "protocol/node/probes.h"
 #include "protocol/wire/events.h"
 
 namespace shearwater::node {
@@ -46,8 +47,15 @@ class Branch {
     void cancel_all(std::vector<wire::NetEffect>& effects);
     bool pending(std::uint64_t frame) const { return pending_.contains(frame); }
 
-    // A child's Windows, HistogramReport, Functions, NeedVoxels. Returns a request for voxels that must go on
-    // up (or be served here), if that is what it was. A faulty message closes the child's link.
+    // Passes a ray on to the children that it may meet.
+    void probe(const view::Factorisation& ray, const wire::pb::Probe& probe, wire::Time now,
+               std::vector<wire::NetEffect>& effects);
+    void forget_probe(std::uint64_t number) { probes_.forget(number); }
+    // Rays of which every child has given its part or will not.
+    std::vector<wire::RayPart> take_probed() { return probes_.take_complete(); }
+
+    // A child's Windows, HistogramReport, Functions, Probed, NeedVoxels. Returns a request for voxels that
+    // must go on up (or be served here), if that is what it was. A faulty message closes the child's link.
     std::optional<wire::pb::NeedVoxels> receive(wire::LinkId link, const wire::Message& message,
                                                 std::vector<wire::NetEffect>& effects);
     // Forgets the link; its child's share of pending frames is missing.
@@ -107,6 +115,7 @@ class Branch {
     std::size_t index_of(const Child& child) const;
     void fault(wire::LinkId link, const wire::Fault& fault, std::vector<wire::NetEffect>& effects);
     void on_windows(const Child& child, const wire::Message& message, std::vector<wire::NetEffect>& effects);
+    void on_probed(const Child& child, const wire::pb::Probed& probed, std::vector<wire::NetEffect>& effects);
     void on_histogram(std::size_t index, const wire::pb::HistogramReport& report,
                       std::vector<wire::NetEffect>& effects);
     void give_up(Pending& pending, std::size_t index) const;
@@ -125,6 +134,7 @@ class Branch {
     std::array<bool, 2> histogram_news_{};    // by Counted
     std::optional<wire::Message> wanted_;     // pb::WantFunctions
     std::vector<wire::Message> functions_;
+    Probes probes_;
 };
 
 }  // namespace shearwater::node

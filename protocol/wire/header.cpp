@@ -77,6 +77,15 @@ constexpr Type type<pb::Frame>{67, {mib, 160 * mib}};  // 2^25 pixels, runs of o
 template <>
 constexpr Type type<pb::FrameShown>{68, {mib, 0}};
 
+template <>
+constexpr Type type<pb::Pick>{70, {mib, 0}};
+template <>
+constexpr Type type<pb::Picked>{71, {4 * kib, 0}};
+template <>
+constexpr Type type<pb::Probe>{72, {256 * kib, 0}};
+template <>
+constexpr Type type<pb::Probed>{73, {8 * mib, 0}};
+
 // The types and their parsers, in the variant's order.
 template <class T>
 Parsed<Body> parse_as(std::span<const std::byte> bytes) {

@@ -11,6 +11,7 @@
 #include "common/volume/statistics.h"
 #include "protocol/node/merge.h"
 #include "renderer/culling/culler.h"
+#include "renderer/shear/ray_samples.h"
 #include "renderer/shear/render.h"
 
 namespace shearwater::jobs {
@@ -33,6 +34,7 @@ Jobs::~Jobs() {
     loading_.join();
     drawing_.join();
     finding_.join();
+    picking_.join();
 }
 
 std::stop_token Jobs::begin(leaf::Job job) {
@@ -75,6 +77,8 @@ void Jobs::perform(leaf::Effect effect) {
                 end(job.job);
             });
         });
+    } else if (auto* sampling = std::get_if<leaf::SampleRay>(&effect)) {
+        boost::asio::post(picking_, [this, job = std::move(*sampling)] { sample_ray(job); });
     } else if (auto* drawing = std::get_if<leaf::Draw>(&effect)) {
         boost::asio::post(drawing_, [this, job = std::move(*drawing), stop = begin(drawing->job)] {
             draw(job, stop);
@@ -249,6 +253,21 @@ void Jobs::find(const leaf::Find& job, bool coarse, base::Workers& workers, cons
     if (!coarse) {
         tell_memory();
     }
+}
+
+void Jobs::sample_ray(const leaf::SampleRay& job) {
+    Volume volume;
+    {
+        const std::lock_guard lock(mutex_);
+        volume = found_in_;
+    }
+    const bool is_there = volume != nullptr && volume->cube() == job.ray.lattice.n;
+    wire::RayPart part{job.number, {}, !is_there};
+    if (is_there) {
+        const shear::OpacityTable table(job.tf, volume->mapping().levels());
+        part.samples = shear::sample_ray(*volume, table, job.ray);
+    }
+    tell_(leaf::RaySampled{job.job, std::move(part)});
 }
 
 void Jobs::tell_memory() {

@@ -1,7 +1,8 @@
 #pragma once
 // Carries out a leaf's jobs: counting, loading and finding coarse opacity functions on one thread, drawing on
-// another, finding all of them in the background on a third, each with workers that share its loops. So a
-// sketch can be drawn while the rest is loading.
+// another, finding all of them in the background on a third, each with workers that share its loops, and
+// following single rays on a fourth. So a sketch can be drawn while the rest is loading, and a pick need not
+// wait for a picture.
 
 #include <boost/asio/thread_pool.hpp>
 #include <chrono>
@@ -41,6 +42,7 @@ class Jobs {
     void load(const leaf::Load& load, const std::stop_token& stop);
     void draw(const leaf::Draw& draw, const std::stop_token& stop);
     void find(const leaf::Find& find, bool coarse, base::Workers& workers, const std::stop_token& stop);
+    void sample_ray(const leaf::SampleRay& job);
     void sketch(leaf::Job job, const leaf::Share& share, int level, volume::VoxelSource& source,
                 const std::stop_token& stop);
     base::Result<Source> open(leaf::Job job, const leaf::Share& share, const std::stop_token& stop);
@@ -70,8 +72,8 @@ class Jobs {
     std::mutex mutex_;
     std::map<leaf::Job, std::stop_source> running_;
     std::map<leaf::Job, std::shared_ptr<LinkSource>> link_sources_;
-    Volume found_in_;  // the cube, for the finding thread
-    boost::asio::thread_pool drawing_{1}, loading_{1}, finding_{1};
+    Volume found_in_;  // the cube, for the finding and the picking thread
+    boost::asio::thread_pool drawing_{1}, loading_{1}, finding_{1}, picking_{1};
 };
 
 }  // namespace shearwater::jobs

@@ -92,6 +92,8 @@ Effects Leaf::handle(JobEvent event, wire::Time now) {
         }
     } else if (const auto* found = std::get_if<Found>(&event)) {
         on_found(*found, effects);
+    } else if (const auto* sampled = std::get_if<RaySampled>(&event)) {
+        on_sampled(*sampled, effects);
     } else if (auto* wanted = std::get_if<VoxelsWanted>(&event)) {
         if (wanted->job == load_job_) {
             wanted_ = *wanted;
@@ -198,6 +200,7 @@ void Leaf::on_parent_down(Effects& effects) {
     stop_finding(effects);
     functions_.clear();
     told_.clear();
+    sampling_.clear();
     // Nobody waits for these frames any more.
     waiting_.clear();
     if (draw_job_ != 0) {
@@ -212,6 +215,8 @@ void Leaf::on_parent_message(const wire::Received& received, Effects& effects) {
         on_render(received.link, *render, effects);
     } else if (const auto* cancel = std::get_if<pb::Cancel>(&message.body)) {
         on_cancel(cancel->frame(), effects);
+    } else if (const auto* probe = std::get_if<pb::Probe>(&message.body)) {
+        on_probe(received.link, *probe, effects);
     } else if (const auto* want = std::get_if<pb::WantFunctions>(&message.body)) {
         on_want_functions(received.link, *want, effects);
     } else if (const auto* mapping = std::get_if<pb::SetMapping>(&message.body)) {

@@ -22,6 +22,7 @@
 #include "common/volume/histogram.h"
 #include "common/volume/mapping.h"
 #include "protocol/node/member.h"
+#include "protocol/wire/convert_pick.h"
 #include "protocol/wire/events.h"
 
 namespace shearwater::leaf {
@@ -69,6 +70,13 @@ struct Find {
     int side;  // of the direction grid
     view::Vec3 spacing;
 };
+// Goes on beside all others.
+struct SampleRay {
+    Job job;
+    std::uint64_t number;
+    view::Factorisation ray;
+    view::TransferFunction tf;
+};
 struct Stop {  // whatever of this job still runs
     Job job;
 };
@@ -76,7 +84,7 @@ struct HandVoxels {  // an answer to a VoxelsWanted
     Job job;
     wire::Message voxels;
 };
-using Effect = std::variant<Count, Load, Draw, Find, Stop, HandVoxels>;
+using Effect = std::variant<Count, Load, Draw, Find, SampleRay, Stop, HandVoxels>;
 
 struct Advanced {
     Job job;
@@ -104,6 +112,10 @@ struct Found {  // of all blocks that it has a part of
     culling::FunctionTable table;
     bool coarse;  // the job goes on
 };
+struct RaySampled {
+    Job job;
+    wire::RayPart part;
+};
 // A job that cannot see the cube's file asks for a part of it over the tree, one at a time.
 struct VoxelsWanted {
     Job job;
@@ -113,7 +125,8 @@ struct Memory {
     std::uint64_t resident;
     std::uint64_t peak;
 };
-using JobEvent = std::variant<Advanced, Sketched, Counted, Loaded, Drawn, Found, VoxelsWanted, Memory>;
+using JobEvent =
+    std::variant<Advanced, Sketched, Counted, Loaded, Drawn, Found, RaySampled, VoxelsWanted, Memory>;
 
 struct Effects {
     std::vector<wire::NetEffect> net;
@@ -122,7 +135,8 @@ struct Effects {
 
 class Leaf {
   public:
-    static constexpr std::size_t max_waiting = 64;  // frames; the oldest beyond are dropped
+    static constexpr std::size_t max_waiting = 64;    // frames; the oldest beyond are dropped
+    static constexpr std::size_t most_sampling = 64;  // rays; those beyond are answered with nothing
 
     explicit Leaf(node::MemberOptions options) : member_(std::move(options)) {}
 
@@ -154,6 +168,8 @@ class Leaf {
     void on_render(wire::LinkId link, const wire::pb::Render& render, Effects& effects);
     void on_want_functions(wire::LinkId link, const wire::pb::WantFunctions& want, Effects& effects);
     void on_found(const Found& found, Effects& effects);
+    void on_probe(wire::LinkId link, const wire::pb::Probe& probe, Effects& effects);
+    void on_sampled(const RaySampled& sampled, Effects& effects);
     void on_cancel(std::uint64_t frame, Effects& effects);
     void on_mapping(wire::LinkId link, const wire::pb::Mapping& mapping, Effects& effects);
 
@@ -204,6 +220,7 @@ class Leaf {
     std::uint64_t renewal_ = 0;
     Job find_job_ = 0;
     std::uint64_t finding_ = 0;  // number of find_job_
+    std::set<Job> sampling_;
     wire::Time last_report_{};
 };
 

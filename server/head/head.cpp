@@ -49,6 +49,10 @@ Effects Head::handle(JobEvent event, wire::Time now) {
         branch_.deliver_voxels(read->voxels, effects.net);
         return effects;
     }
+    if (const auto* measured = std::get_if<Measured>(&event)) {
+        on_measured(*measured, effects);
+        return effects;
+    }
     if (auto* looked = std::get_if<Looked>(&event)) {
         on_looked(std::move(*looked), now, effects);
         collect(now, effects);
@@ -104,42 +108,6 @@ void Head::fault(wire::LinkId link, const wire::Fault& fault, Effects& effects) 
     effects.net.emplace_back(wire::CloseLink{link, fault.reason, fault.text});
 }
 
-void Head::on_join(wire::LinkId link, const pb::Join& join, Effects& effects) {
-    const auto peer = joining_.find(link);
-    if (peer == joining_.end() || join.role() != peer->second.role) {
-        fault(link, {pb::REASON_BAD_TYPE, "only a daemon joins, once"}, effects);
-        return;
-    }
-    const auto place = roster_.join(link, join, peer->second);
-    joining_.erase(peer);
-    if (!place) {
-        fault(link, {pb::REASON_NO_PLACE, "the tree has no vacant place for it"}, effects);
-        return;
-    }
-    give_orders(*place, effects);
-    for (const tree::Place child : roster_.plan().at(*place).children) {
-        give_orders(child, effects);
-    }
-}
-
-void Head::give_orders(tree::Place place, Effects& effects) const {
-    if (auto order = roster_.order_for(place, mapping_)) {
-        if (!serving_) {
-            order->assign.set_sketch_level(static_cast<std::uint32_t>(roster_.cube().sketch_level));
-        }
-        effects.net.emplace_back(wire::Send{order->link, wire::message(std::move(order->assign))});
-    }
-}
-
-void Head::on_report(wire::LinkId link, const pb::Report& report, Effects& effects) {
-    if (!roster_.report(link, report)) {
-        return;  // said before it heard of its place here
-    }
-    if (report.phase() == pb::PHASE_WAITING && mapping_) {
-        give_orders(static_cast<tree::Place>(report.place()), effects);
-    }
-}
-
 void Head::on_client_message(Session& session, const wire::Received& received, wire::Time now,
                              Effects& effects) {
     if (const auto* wanted = std::get_if<pb::SetView>(&received.message.body)) {
@@ -163,6 +131,8 @@ void Head::on_client_message(Session& session, const wire::Received& received, w
     } else if (const auto* shown = std::get_if<pb::FrameShown>(&received.message.body)) {
         std::erase(session.in_flight, shown->number());
         begin_frames(received.link, session, now, effects);
+    } else if (const auto* pick = std::get_if<pb::Pick>(&received.message.body)) {
+        on_pick(received.link, *pick, now, effects);
     } else {
         const std::string name(wire::name(received.message.body));
         on_link_down(received.link, effects);
@@ -175,6 +145,7 @@ void Head::on_link_down(wire::LinkId link, Effects& effects) {
     branch_.link_down(link);
     roster_.leave(link);
     functions_.forget(link);
+    forget_picks(link);
     if (sessions_.erase(link) > 0) {
         std::erase_if(frames_, [&](const auto& entry) {
             const bool gone = entry.second.client == link;

@@ -17,6 +17,7 @@
 #include "protocol/node/merge.h"
 #include "protocol/wire/convert.h"
 #include "server/head/functions.h"
+#include "server/head/picks.h"
 #include "server/head/roster.h"
 
 namespace shearwater::head {
@@ -72,7 +73,13 @@ struct Forget {
 struct ReadVoxels {
     wire::pb::NeedVoxels need;  // of a box inside the cube
 };
-using Job = std::variant<Lay, Finish, GiveUp, Look, Learn, Forget, ReadVoxels>;
+// The cube's value at a point of it, in voxels, for a pick.
+struct Measure {
+    std::uint64_t number;
+    volume::Index3 n{};  // of the cube
+    view::Vec3 at;
+};
+using Job = std::variant<Lay, Finish, GiveUp, Look, Learn, Forget, ReadVoxels, Measure>;
 
 struct Finished {
     std::uint64_t number;
@@ -85,7 +92,11 @@ struct Looked {
 struct VoxelsRead {
     wire::Message voxels;  // pb::Voxels
 };
-using JobEvent = std::variant<Finished, Looked, VoxelsRead>;
+struct Measured {
+    std::uint64_t number;
+    double value;  // not a number where there is none, or it cannot be read
+};
+using JobEvent = std::variant<Finished, Looked, VoxelsRead, Measured>;
 
 struct Effects {
     std::vector<wire::NetEffect> net;
@@ -172,6 +183,10 @@ class Head {
     bool can_cull(wire::LinkId client, const wire::View& view, int level);
     void on_looked(Looked looked, wire::Time now, Effects& effects);
     void settle_functions(wire::Time now, Effects& effects);
+    void on_pick(wire::LinkId client, const wire::pb::Pick& pick, wire::Time now, Effects& effects);
+    void forget_picks(wire::LinkId client);
+    void settle_picks(Effects& effects);
+    void on_measured(const Measured& measured, Effects& effects);
     void collect(wire::Time now, Effects& effects);
     static void fault(wire::LinkId link, const wire::Fault& fault, Effects& effects);
 
@@ -179,6 +194,7 @@ class Head {
     Limits limits_;
     node::Branch branch_;
     Functions functions_;
+    Picks picks_;
     std::optional<volume::Mapping> mapping_;
     std::optional<volume::Mapping> sketch_;  // set once all have one: by its own limits
     bool serving_ = false;

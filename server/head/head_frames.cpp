@@ -172,6 +172,7 @@ void Head::begin_eyes(std::uint64_t number, FrameInWork& frame, const std::optio
 
 void Head::collect(wire::Time now, Effects& effects) {
     settle_functions(now, effects);
+    settle_picks(effects);
     settle_sketch(now, effects);
     settle_mapping(effects);
     for (node::MergeJob& job : branch_.take_complete()) {

@@ -2,9 +2,11 @@
 
 #include <boost/asio/post.hpp>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "common/base/stopwatch.h"
+#include "common/volume/interpolate.h"
 #include "protocol/wire/convert.h"
 #include "protocol/wire/picture.h"
 
@@ -45,6 +47,8 @@ void Service::perform(head::Job job) {
         boost::asio::post(learning_, [this, work = std::move(*forget)] { lookout_.forget(work); });
     } else if (auto* read = std::get_if<head::ReadVoxels>(&job)) {
         boost::asio::post(reading_, [this, work = std::move(*read)] { read_voxels(work); });
+    } else if (const auto* measuring = std::get_if<head::Measure>(&job)) {
+        boost::asio::post(reading_, [this, work = *measuring] { measure(work); });
     }
 }
 
@@ -86,6 +90,11 @@ void Service::read_voxels(const head::ReadVoxels& job) {
         }
     }
     tell_(head::VoxelsRead{wire::message(std::move(voxels), std::move(payload))});
+}
+
+void Service::measure(const head::Measure& job) {
+    const auto value = volume::value_at(*cube_, job.n, {job.at.x, job.at.y, job.at.z});
+    tell_(head::Measured{job.number, value ? *value : std::numeric_limits<double>::quiet_NaN()});
 }
 
 }  // namespace shearwater::service

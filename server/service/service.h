@@ -1,7 +1,7 @@
 #pragma once
 // Carries out the head's jobs: finishing frames on one thread that shares its loops with the workers, looking
 // what is visible on another, putting opacity functions together on a third, and reading voxels for renderers
-// that cannot see the file on a fourth.
+// that cannot see the file, and for picks, on a fourth.
 
 #include <boost/asio/thread_pool.hpp>
 #include <functional>
@@ -28,6 +28,7 @@ class Service {
   private:
     void finish(const head::Finish& job);
     void read_voxels(const head::ReadVoxels& job);
+    void measure(const head::Measure& job);
 
     std::unique_ptr<volume::VoxelSource> cube_;  // touched by the reading thread only
     std::function<void(head::JobEvent)> tell_;

@@ -76,6 +76,8 @@ class SessionTest : public testing::Test {
                     auto parsed = wire::view_from(*view);
                     ASSERT_TRUE(parsed) << parsed.error().text;
                     views_.push_back(std::move(*parsed));
+                } else if (const auto* pick = std::get_if<pb::Pick>(&send.message.body)) {
+                    picks_.push_back(*pick);
                 } else {
                     shown_.push_back(std::get<pb::FrameShown>(send.message.body).number());
                 }
@@ -151,6 +153,7 @@ class SessionTest : public testing::Test {
     std::vector<wire::CloseLink> closes_;
     std::vector<wire::View> views_;
     std::vector<std::uint64_t> shown_;
+    std::vector<pb::Pick> picks_;
 };
 
 }  // namespace shearwater::model

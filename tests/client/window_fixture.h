@@ -1,5 +1,5 @@
 #pragma once
-// A real window on a real tree under a virtual display, and what tests look at in it.
+// A real window under a virtual display, on a real tree, driven by synthetic mouse and keys.
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <thread>
 
 #include "common/image/png.h"
@@ -20,10 +21,10 @@ namespace shearwater {
 using namespace std::chrono_literals;
 using test::Picture;
 
-constexpr int width = 960, height = 640;
+inline constexpr int width = 960, height = 640;
 // Where the picture is, clear of the panel, the status line, the axes and the notices at the top.
-constexpr int left = 96, right = 640, top = 64, bottom = 600;
-constexpr int middle_x = (960 - 304) / 2, middle_y = (640 - 26) / 2;
+inline constexpr int left = 96, right = 640, top = 64, bottom = 600;
+inline constexpr int middle_x = (960 - 304) / 2, middle_y = (640 - 26) / 2;
 
 inline std::string program(const std::string& name) {
     return std::string(SHEARWATER_BIN) + "/" + name;
@@ -168,6 +169,41 @@ class WindowTest : public testing::Test {
             }
         }
         return last;
+    }
+    // Where the controls are of a window opened with --controls.
+    std::vector<std::string> with_controls() const { return {"--controls", (folder_ / "controls").string()}; }
+    struct Control {
+        int x, y;  // its middle
+    };
+    std::optional<Control> control(const std::string& name) const {
+        std::istringstream lines(text_of(folder_ / "controls"));
+        std::string found;
+        int x = 0, y = 0, wide = 0, high = 0;
+        while (std::getline(lines, found)) {
+            const std::size_t end =
+                found.rfind(' ', found.rfind(' ', found.rfind(' ', found.rfind(' ') - 1) - 1) - 1);
+            if (found.substr(0, end) == name) {
+                std::istringstream(found.substr(end)) >> x >> y >> wide >> high;
+                return Control{x + wide / 2, y + high / 2};
+            }
+        }
+        return std::nullopt;
+    }
+    // Waits until it is there, and clicks on it.
+    void click(const std::string& name) {
+        ASSERT_TRUE(wait_for([&] { return control(name).has_value(); })) << name << " is not to be seen";
+        const Control at = *control(name);
+        display_->click(at.x, at.y);
+    }
+    static bool wait_for(const std::function<bool()>& holds) {
+        const auto end = std::chrono::steady_clock::now() + 60s;
+        while (!holds()) {
+            if (std::chrono::steady_clock::now() > end) {
+                return false;
+            }
+            std::this_thread::sleep_for(30ms);
+        }
+        return true;
     }
     Picture lit(const char* what) {
         return settled([](const Picture& p) { return light_of(p).sum > 1e5; }, what);

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "common/image/png.h"
+#include "common/scene/file.h"
 #include "tests/support/command.h"
 #include "tests/support/cubes.h"
 #include "tests/support/pictures.h"
@@ -125,6 +126,38 @@ TEST_F(Commands, SnapshotWritesToStandardOutput) {
     const Outcome outcome = run("snapshot " + cube_ + " -o - --tree 1,1");
     EXPECT_EQ(outcome.status, 0);
     EXPECT_EQ(outcome.out.substr(1, 3), "PNG");
+}
+
+// A session says what options would, and may be given in a picture of it.
+TEST_F(Commands, ASessionIsDrawnLikeItsOptions) {
+    scene::Scene kept{.viewpoint = {.orbit = {40, 10, 60, {}, 15}, .fov = 35}, .size = {96, 71}};
+    kept.quality = view::Quality::normal;
+    kept.classify = view::Classify::pre_integrated;
+    ASSERT_TRUE(scene::write(scratch_.path("kept.toml"), kept));
+    ASSERT_TRUE(scene::write_picture(scratch_.path("kept.png"), kept, image::Image<image::Rgba8>(9, 9)));
+    const std::string options =
+        " --azimuth 40 --elevation 10 --roll 15 --distance 60 --fov 35 --size 96x71 "
+        "--classify pre-integrated --tree 1,1";
+    ASSERT_EQ(run("snapshot " + cube_ + " -o " + png_ + options).status, 0);
+    const auto expected = image::read_png(png_);
+    ASSERT_TRUE(expected && support::lit(*expected));
+    for (const std::string file : {"kept.toml", "kept.png"}) {
+        const std::string by_session =
+            "snapshot " + cube_ + " -o " + png_ + " --tree 1,1 --session " + scratch_.path(file);
+        const Outcome outcome = run(by_session);
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_EQ(support::difference(*expected, image::read_png(png_).value()).largest, 0);
+        ASSERT_EQ(run(by_session + " --size 48x30 --quality draft").status, 0);
+        EXPECT_EQ(image::read_png(png_).value().width(), 48);
+        expect_mistake(by_session + " --azimuth 3", "azimuth");
+        expect_mistake(by_session + " --lod off", "lod");
+    }
+    std::ofstream(scratch_.path("kept.toml")) << "version = 1\n[camera]\n";
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --session " + scratch_.path("kept.toml"),
+                   "cube is missing");
+    expect_mistake("view " + cube_ + " --session " + scratch_.path("kept.toml"), "cube is missing");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --session " + cube_, "session");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --session /nowhere.png", "nowhere");
 }
 
 TEST_F(Commands, MistakesGetOneLine) {

@@ -88,6 +88,27 @@ TEST_F(JobsTest, ASketchComesBeforeTheCount) {
     EXPECT_EQ(counted->histogram->valid(), 50U * 20 * 16);
 }
 
+// A ray is followed beside a picture that is drawn, and before there is anything to follow it in.
+TEST_F(JobsTest, ARayIsFollowedInWhatIsLoaded) {
+    const view::Lattice lattice{.n = n, .spacing = {1, 1, 1}};
+    const leaf::SampleRay ray{3, 7,
+                              view::factorise_ray(view::camera_on({}, lattice), {32, 24}, {16, 12}, lattice),
+                              view::default_transfer_function()};
+    jobs_.perform(ray);
+    const auto before = next<leaf::RaySampled>();
+    ASSERT_TRUE(before);
+    EXPECT_TRUE(before->part.incomplete && before->part.samples.empty());
+    jobs_.perform(leaf::Load{1, share_of(write(0)), {.lo = 0, .hi = 250}, 0});
+    ASSERT_TRUE(next<leaf::Loaded>());
+    jobs_.perform(draw(2, {}));
+    jobs_.perform(ray);
+    const auto after = next<leaf::RaySampled>();
+    ASSERT_TRUE(after);
+    EXPECT_EQ(after->job, 3U);
+    EXPECT_EQ(after->part.number, 7U);
+    EXPECT_FALSE(after->part.incomplete || after->part.samples.empty());
+}
+
 TEST_F(JobsTest, NoSketchIsMadeWhereNoneIsWanted) {
     jobs_.perform(leaf::Count{1, share_of(write(0)), 0});
     ASSERT_TRUE(next<leaf::Counted>());

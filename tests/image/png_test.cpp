@@ -145,5 +145,54 @@ TEST_F(Png, FuzzedFilesNeverCrash) {
     }
 }
 
+// What a note is, and that it changes no pixel.
+TEST_F(Png, CarriesANote) {
+    const auto image = picture(37, 23, true);
+    const std::string note = "camera = \"here\"\n\u03b1 = 1\n";
+    ASSERT_TRUE(write_png(path("a.png"), image, note));
+    EXPECT_TRUE(is_png(path("a.png")));
+    EXPECT_EQ(read_png_note(path("a.png")).value(), note);
+    const auto back = read_png(path("a.png"));
+    ASSERT_TRUE(back) << back.error().message();
+    EXPECT_TRUE(same(*back, image));
+
+    ASSERT_TRUE(write_png(path("b.png"), image));
+    EXPECT_EQ(read_png_note(path("b.png")).error().code, base::Code::not_found);
+    EXPECT_EQ(read_png_note(path("none.png")).error().code, base::Code::not_found);
+    const std::string longest(longest_note, 'x');
+    ASSERT_TRUE(write_png(path("c.png"), image, longest));
+    EXPECT_EQ(read_png_note(path("c.png")).value(), longest);
+}
+
+// A picture cut at every byte has its whole note, or none and an error.
+TEST_F(Png, ANoteCutShortIsRefused) {
+    const std::string note = "some note";
+    ASSERT_TRUE(write_png(path("a.png"), picture(5, 4, true), note));
+    const std::string whole = bytes_of(path("a.png"));
+    std::size_t found = 0;
+    for (std::size_t bytes = 0; bytes < whole.size(); ++bytes) {
+        std::ofstream(path("cut.png"), std::ios::binary) << whole.substr(0, bytes);
+        const auto read = read_png_note(path("cut.png"));
+        EXPECT_EQ(is_png(path("cut.png")), bytes >= 8);
+        if (read) {
+            ++found;
+            EXPECT_EQ(*read, note);
+        } else {
+            EXPECT_EQ(read.error().code, base::Code::corrupt) << bytes;
+        }
+    }
+    EXPECT_GT(found, 0U);
+    std::size_t damaged = 0;
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+        std::string changed = whole;
+        changed[at] = static_cast<char>(changed[at] ^ 0x40);
+        std::ofstream(path("changed.png"), std::ios::binary) << changed;
+        const auto read = read_png_note(path("changed.png"));
+        damaged += read ? 0U : 1U;
+        EXPECT_TRUE(!read || *read == note) << at;
+    }
+    EXPECT_GT(damaged, note.size());
+}
+
 }  // namespace
 }  // namespace shearwater::image

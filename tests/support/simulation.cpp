@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "common/image/over_windows.h"
+#include "common/volume/interpolate.h"
 #include "common/volume/statistics.h"
 #include "protocol/wire/picture.h"
 #include "renderer/culling/culler.h"
+#include "renderer/shear/ray_samples.h"
 #include "renderer/shear/render.h"
 #include "renderer/shear/sketch.h"
 
@@ -158,6 +160,13 @@ struct Simulation::Renderer final : Simulation::Daemon {
                                                    load->mapping, sim.workers_);
             bricks = *std::move(loaded);
             tell(leaf::Loaded{load->job, {}});
+        } else if (const auto* ray = std::get_if<leaf::SampleRay>(&effect)) {
+            wire::RayPart part{ray->number, {}, !bricks};
+            if (bricks) {
+                part.samples = shear::sample_ray(
+                    *bricks, shear::OpacityTable(ray->tf, bricks->mapping().levels()), ray->ray);
+            }
+            tell(leaf::RaySampled{ray->job, std::move(part)});
         } else if (const auto* find = std::get_if<leaf::Find>(&effect); find != nullptr && bricks) {
             for (const bool coarse : {true, false}) {
                 if (!coarse || find->key.level == 0) {
@@ -302,6 +311,10 @@ void Simulation::perform(head::Effects effects) {
                 lookout_.learn(*learn);
             } else if (const auto* forget = std::get_if<head::Forget>(&job)) {
                 lookout_.forget(*forget);
+            } else if (const auto* measure = std::get_if<head::Measure>(&job)) {
+                const auto value =
+                    volume::value_at(source_, measure->n, {measure->at.x, measure->at.y, measure->at.z});
+                perform(head_.handle(head::Measured{measure->number, value.value()}, fabric_.now()));
             } else if (const auto* given_up = std::get_if<head::GiveUp>(&job)) {
                 EXPECT_TRUE(pictures_.give_up(given_up->frame)) << "what was never begun is given up";
             }
@@ -333,6 +346,11 @@ void Simulation::on_client_event(const wire::NetEvent& event) {
         pb::FrameShown shown;
         shown.set_number(std::get<pb::Frame>(frame_->body).number());
         fabric_.perform(client_node, {wire::Send{received->link, wire::message(shown)}});
+    } else if (received != nullptr && std::holds_alternative<pb::Picked>(received->message.body)) {
+        const auto answer = wire::pick_answer_from(std::get<pb::Picked>(received->message.body),
+                                                   head_.roster().cube().lattice.n);
+        ASSERT_TRUE(answer) << answer.error().text;
+        picked_.push_back(*answer);
     }
 }
 
@@ -341,6 +359,10 @@ std::uint64_t Simulation::ask(const wire::View& wanted) {
     view.revision = ++revision_;
     fabric_.perform(client_node, {wire::Send{wire::LinkId{1}, wire::message(wire::to_wire(view))}});
     return revision_;
+}
+
+void Simulation::pick(const wire::PickRequest& wanted) {
+    fabric_.perform(client_node, {wire::Send{wire::LinkId{1}, wire::message(wire::to_wire(wanted))}});
 }
 
 bool Simulation::answered(std::uint64_t revision) const {

@@ -14,6 +14,7 @@
 #include "common/tree/plan.h"
 #include "common/volume/source.h"
 #include "compositor/junction/junction.h"
+#include "protocol/wire/convert_pick.h"
 #include "renderer/leaf/leaf.h"
 #include "renderer/shear/brick_volume.h"
 #include "server/head/head.h"
@@ -83,6 +84,9 @@ class Simulation {
     void run_some(int steps);
 
     std::uint64_t ask(const wire::View& view);
+    void pick(const wire::PickRequest& wanted);
+    // The answers to picks that have come, the newest last.
+    const std::vector<wire::PickAnswer>& picked() const { return picked_; }
     const std::optional<wire::Message>& newest_frame() const { return frame_; }
     // The newest of a sketch, and how many of any kind have come.
     const std::optional<wire::Message>& newest_sketch() const { return sketch_; }
@@ -122,6 +126,7 @@ class Simulation {
     std::optional<wire::Message> frame_, sketch_;
     int frames_ = 0;
     std::uint64_t culled_bricks_ = 0;
+    std::vector<wire::PickAnswer> picked_;
 };
 
 }  // namespace shearwater::support

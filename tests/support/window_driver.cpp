@@ -190,6 +190,11 @@ void Display::drag(int button, int x, int y, int dx, int dy, const std::string& 
     park();
 }
 
+void Display::hold(const std::string& key, std::chrono::milliseconds time) {
+    const double seconds = std::chrono::duration<double>(time).count();
+    xdotool({"keydown", key, "sleep", std::to_string(seconds), "keyup", key});
+}
+
 void Display::press(int button, int x, int y) {
     xdotool({"mousemove", std::to_string(x), std::to_string(y), "sleep", "0.1", "mousedown",
              std::to_string(button), "sleep", "0.25"});

@@ -53,6 +53,9 @@ class Display {
 
     // The mouse is in the upper left corner before and after each of these: its pointer is on the screen.
     void key(const std::string& name) { xdotool({"key", name}); }
+    // Characters, wherever they are typed into.
+    void type(const std::string& text) { xdotool({"type", "--delay", "30", "--", text}); }
+    void hold(const std::string& key, std::chrono::milliseconds time);
     // Presses `button` at (x, y), moves by (dx, dy) in steps and lets go.
     void drag(int button, int x, int y, int dx, int dy, const std::string& held_key = "");
     void click(int x, int y, int times = 1);

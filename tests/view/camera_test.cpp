@@ -47,6 +47,33 @@ TEST(CameraOn, SeesOverThePoles) {
     }
 }
 
+TEST(CameraOn, RollLeansTheCameraToItsRight) {
+    for (const double elevation : {20.0, 90.0}) {
+        const Orbit upright{40, elevation, 10, {1, 2, 3}};
+        Orbit leaning = upright;
+        leaning.roll = 90;
+        const Rays before = rays_of(camera_on(upright, lattice), {64, 64});
+        const Rays after = rays_of(camera_on(leaning, lattice), {64, 64});
+        expect_near(after.dir_y, -before.dir_x);  // what was to the right is on top
+        expect_near(after.dir_x, before.dir_y);
+        leaning.roll = 180;
+        expect_near(rays_of(camera_on(leaning, lattice), {64, 64}).dir_x, -before.dir_x);
+        leaning.roll = 360;
+        expect_near(rays_of(camera_on(leaning, lattice), {64, 64}).dir_x, before.dir_x);
+    }
+}
+
+TEST(PictureAxes, AreThoseOfTheRays) {
+    for (const double roll : {0.0, 33.0, -170.0}) {
+        const Orbit orbit{70, -35, 10, {1, 2, 3}, roll};
+        const Rays rays = rays_of(camera_on(orbit, lattice), {64, 64});
+        const PictureAxes axes = picture_axes(orbit);
+        expect_near(glm::normalize(rays.dir_x), axes.right);
+        expect_near(glm::normalize(rays.dir_y), -axes.up);
+        expect_near(glm::normalize(rays.direction_at(32, 32)), -axes.back);
+    }
+}
+
 TEST(RaysOf, PutsXToTheRightAndRow0OnTop) {
     Camera camera;
     camera.eye = {0, 0, 5};

@@ -249,7 +249,33 @@ pb::FrameShown frame_shown() {
     return m;
 }
 
+pb::Pick pick() {
+    return to_wire(pick_request());
+}
+pb::Picked picked() {
+    return to_wire(PickAnswer{
+        .revision = 9, .hit = view::RayHit{{1.5, 2, 3.25}, 0.75}, .value = -0.5, .incomplete = true});
+}
+pb::Probe probe() {
+    pb::Probe m;
+    m.set_number(19);
+    view::Factorisation ray = factorisation();
+    ray.slice_exponent = -1;
+    ray.faces = {{.axis = 2, .sign = 1, .width = 1, .height = 1, .origin = {-0.5, -0.25}, .pitch = {1, 1}}};
+    fill(*m.mutable_factorisation(), to_wire(ray));
+    fill(*m.mutable_transfer_function(), to_wire(transfer_function()));
+    return m;
+}
+pb::Probed probed() {
+    return to_wire(RayPart{.number = 19, .samples = {{7, 0.5F}, {6, 0.25F}, {3, 2}}, .incomplete = true});
+}
+
 }  // namespace
+
+PickRequest pick_request() {
+    const View view = view_request();
+    return {.revision = 9, .camera = view.camera, .size = view.size, .at = {320.5, 7.5}, .tf = view.tf};
+}
 
 std::vector<Message> examples() {
     return {message(challenge()),
@@ -275,7 +301,11 @@ std::vector<Message> examples() {
             message(tree_state()),
             message(to_wire(view_request())),
             message(frame(), bytes({9, 8, 7})),
-            message(frame_shown())};
+            message(frame_shown()),
+            message(pick()),
+            message(picked()),
+            message(probe()),
+            message(probed())};
 }
 
 std::vector<Message> sketch_examples() {

@@ -7,6 +7,7 @@
 #include "common/view/transfer_function.h"
 #include "protocol/wire/convert.h"
 #include "protocol/wire/convert_culling.h"
+#include "protocol/wire/convert_pick.h"
 #include "protocol/wire/message.h"
 
 namespace shearwater::wire::test {
@@ -23,5 +24,6 @@ view::TransferFunction transfer_function();
 view::Factorisation factorisation();  // of two faces, 5 x 4 and 3 x 2 pixels
 culling::FunctionKey function_key();
 View view_request();
+PickRequest pick_request();
 
 }  // namespace shearwater::wire::test

@@ -70,6 +70,25 @@ void convert(const Body& body) {
         // Whatever it says, a part has a byte for each of its blocks and directions.
         const auto from = functions_from(message(*functions, std::vector<std::byte>(4)));
         EXPECT_TRUE(!from || from->codes.size() == 4);
+    } else if (const auto* pick = std::get_if<pb::Pick>(&body)) {
+        if (const auto from = pick_from(*pick)) {
+            EXPECT_TRUE(view::validate(from->camera, from->size));
+            const auto ray = view::factorise_ray(from->camera, from->size, from->at, {.n = {9, 8, 7}});
+            EXPECT_TRUE(view::validate(ray) && view::is_ray(ray));
+        }
+    } else if (const auto* picked = std::get_if<pb::Picked>(&body)) {
+        if (const auto from = pick_answer_from(*picked, {100, 40, 33}); from && from->hit) {
+            EXPECT_LE(from->hit->voxel.x, 99);
+        }
+    } else if (const auto* probe = std::get_if<pb::Probe>(&body)) {
+        if (const auto from = ray_from(*probe)) {
+            EXPECT_TRUE(view::validate(*from) && view::is_ray(*from));
+        }
+    } else if (const auto* probed = std::get_if<pb::Probed>(&body)) {
+        if (const auto from = ray_part_from(*probed)) {
+            EXPECT_LE(from->samples.size(), most_ray_samples);
+            EXPECT_TRUE(ray_part_from(to_wire(*from)));
+        }
     } else if (const auto* assign = std::get_if<pb::Assign>(&body)) {
         if (const auto from = box_from(assign->box())) {
             EXPECT_GT(from->voxels(), 0);
@@ -136,7 +155,7 @@ TEST(Fuzz, BodiesOfRandomBytes) {
         for (std::byte& b : body) {
             b = static_cast<std::byte>(random() % (i % 2 == 0 ? 256 : 32));
         }
-        const auto type = static_cast<std::uint16_t>(below(random, 70));
+        const auto type = static_cast<std::uint16_t>(below(random, 80));
         if (limit_of(type) != nullptr) {
             const auto size = static_cast<std::uint32_t>(body.size());
             if (const auto parsed =

@@ -62,6 +62,10 @@ const std::map<std::string, Expected, std::less<>> types{
     {"SetView", {66, mib, 0}},
     {"Frame", {67, mib, 160 * mib}},
     {"FrameShown", {68, mib, 0}},
+    {"Pick", {70, mib, 0}},
+    {"Picked", {71, 4 * kib, 0}},
+    {"Probe", {72, 256 * kib, 0}},
+    {"Probed", {73, 8 * mib, 0}},
 };
 
 TEST(Types, HaveTheNumbersAndLimitsOfVersionOne) {

@@ -1,0 +1,114 @@
+#include "client/model/keeping.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace shearwater::model {
+
+namespace {
+
+constexpr std::string_view ending = ".autosave.toml";
+
+// FNV-1a: a cube's lattice in a few digits, so that others of its name are told apart.
+std::uint64_t fingerprint(const Cube& cube) {
+    std::string text = cube.name;
+    for (const std::int64_t n : cube.lattice.n) {
+        text += '/' + std::to_string(n);
+    }
+    std::uint64_t hash = 14695981039346656037U;
+    for (const char c : text) {
+        hash = (hash ^ static_cast<std::uint8_t>(c)) * 1099511628211U;
+    }
+    return hash;
+}
+
+std::string prefix_for(const Cube& cube) {
+    return stem_for(cube) + "-" + std::to_string(fingerprint(cube)) + "-";
+}
+
+}  // namespace
+
+Remembered remembered(const Wish& wish) {
+    return {wish.viewpoint, wish.tf};
+}
+
+void restore(const Remembered& state, Wish& wish) {
+    wish.viewpoint = state.viewpoint;
+    wish.tf = state.tf;
+}
+
+scene::Scene scene_of(const Wish& wish, const Effort& effort, const std::string& cube) {
+    return {.cube = cube,
+            .viewpoint = wish.viewpoint,
+            .size = wish.size,
+            .tf = wish.tf,
+            .level_of_detail = wish.level_of_detail,
+            .classify = wish.classify,
+            .culling = wish.culling,
+            .quality = effort.fixed,
+            .target_rate = effort.target_rate};
+}
+
+void apply(const scene::Scene& scene, Wish& wish, Effort& effort) {
+    wish.viewpoint = scene.viewpoint;
+    wish.tf = scene.tf;
+    wish.level_of_detail = scene.level_of_detail;
+    wish.classify = scene.classify;
+    wish.culling = scene.culling;
+    effort.fixed = scene.quality;
+    effort.target_rate = scene.target_rate;
+}
+
+std::string stem_for(const Cube& cube) {
+    std::string name = cube.name.substr(cube.name.find_last_of('/') + 1);
+    for (const std::string_view tail : {".gz", ".fz", ".fits", ".fit"}) {
+        if (name.size() > tail.size() && name.ends_with(tail)) {
+            name.resize(name.size() - tail.size());
+        }
+    }
+    constexpr std::size_t most = 80;
+    name.resize(std::min(name.size(), most));
+    for (char& c : name) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                           c == '-' || c == '_' || c == '.';
+        c = plain ? c : '_';
+    }
+    return name.empty() || name.front() == '.' ? "cube" + name : name;
+}
+
+std::string autosave_name(const Cube& cube, std::uint64_t process) {
+    return prefix_for(cube) + std::to_string(process) + std::string(ending);
+}
+
+std::vector<std::string> left_behind(const std::vector<std::string>& names, const Cube& cube,
+                                     const std::function<bool(std::uint64_t process)>& runs) {
+    const std::string prefix = prefix_for(cube);
+    std::vector<std::string> left;
+    for (const std::string& name : names) {
+        if (!name.starts_with(prefix) || !name.ends_with(ending) ||
+            name.size() <= prefix.size() + ending.size()) {
+            continue;
+        }
+        const char* const end = name.data() + name.size() - ending.size();
+        std::uint64_t process = 0;
+        const auto read = std::from_chars(name.data() + prefix.size(), end, process);
+        if (read.ec == std::errc{} && read.ptr == end && !runs(process)) {
+            left.push_back(name);
+        }
+    }
+    return left;
+}
+
+bool Autosave::due(const scene::Scene& scene, wire::Time now) {
+    if (!kept_) {
+        kept_ = scene;
+    }
+    if (*kept_ == scene || now - kept_at_ < interval) {
+        return false;
+    }
+    kept_ = scene;
+    kept_at_ = now;
+    return true;
+}
+
+}  // namespace shearwater::model

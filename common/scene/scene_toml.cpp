@@ -1,0 +1,234 @@
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <limits>
+
+#include "common/scene/scene.h"
+#include "common/view/transfer_function_table.h"
+
+namespace shearwater::scene {
+
+namespace {
+
+constexpr std::size_t longest_text = std::size_t{1} << 20;
+constexpr int version = 1;
+
+constexpr std::array<std::string_view, 2> projections{"perspective", "parallel"};
+constexpr std::array<std::string_view, 2> classifications{"post", "pre-integrated"};
+constexpr std::array<std::string_view, 4> qualities{"auto", "draft", "normal", "high"};
+constexpr std::array<std::string_view, 3> levels{"server", "on", "off"};
+
+// Reads a document and keeps the first thing found wrong with it.
+class Reader {
+  public:
+    void fail(std::string what) {
+        if (fault_.empty()) {
+            fault_ = std::move(what);
+        }
+    }
+    const std::string& fault() const { return fault_; }
+
+    void only_keys(const toml::table& table, std::string_view where,
+                   std::initializer_list<std::string_view> known) {
+        for (const auto& [key, value] : table) {
+            if (std::ranges::find(known, key.str()) == known.end()) {
+                fail(fmt::format("line {}: unknown key \"{}\" in {}", key.source().begin.line,
+                                 base::printable(key.str(), 40), where));
+            }
+        }
+    }
+
+    const toml::table& section(const toml::table& root, std::string_view key) {
+        const toml::node* const node = root.get(key);
+        if (node == nullptr || !node->is_table()) {
+            fail(fmt::format("the section [{}] is missing", key));
+            return nothing_;
+        }
+        return *node->as_table();
+    }
+
+    double number(const toml::table& table, std::string_view key) {
+        const toml::node* const node = table.get(key);
+        if (node == nullptr || !node->is_number()) {
+            wrong(table, key, "a number");
+            return 0;
+        }
+        return node->value<double>().value_or(std::numeric_limits<double>::quiet_NaN());
+    }
+
+    template <std::size_t N>
+    std::array<double, N> numbers(const toml::table& table, std::string_view key) {
+        std::array<double, N> read{};
+        const toml::node* const node = table.get(key);
+        const toml::array* const values = node != nullptr ? node->as_array() : nullptr;
+        if (values == nullptr || values->size() != N) {
+            wrong(table, key, fmt::format("{} numbers", N));
+            return read;
+        }
+        for (std::size_t i = 0; i < N; ++i) {
+            const toml::node& value = *values->get(i);
+            if (!value.is_number()) {
+                wrong(table, key, fmt::format("{} numbers", N));
+            }
+            read[i] = value.value<double>().value_or(std::numeric_limits<double>::quiet_NaN());
+        }
+        return read;
+    }
+
+    std::size_t one_of(const toml::table& table, std::string_view key,
+                       std::span<const std::string_view> words) {
+        const auto word = table[key].value_exact<std::string>();
+        const auto found = word ? std::ranges::find(words, *word) : words.end();
+        if (found == words.end()) {
+            wrong(table, key, fmt::format("one of {}", fmt::join(words, ", ")));
+            return 0;
+        }
+        return static_cast<std::size_t>(found - words.begin());
+    }
+
+    std::string text(const toml::table& table, std::string_view key) {
+        const auto read = table[key].value_exact<std::string>();
+        if (!read) {
+            wrong(table, key, "text");
+        }
+        return read.value_or("");
+    }
+
+  private:
+    void wrong(const toml::table& table, std::string_view key, std::string_view wanted) {
+        const toml::node* const node = table.get(key);
+        const auto line = (node != nullptr ? node->source() : table.source()).begin.line;
+        fail(node != nullptr ? fmt::format("line {}: {} should be {}", line, key, wanted)
+                             : fmt::format("line {}: {} is missing, {}", line, key, wanted));
+    }
+
+    std::string fault_;
+    toml::table nothing_;
+};
+
+void read_camera(Reader& reader, const toml::table& table, Scene& scene) {
+    reader.only_keys(table, "[camera]",
+                     {"azimuth", "elevation", "roll", "distance", "target", "fov", "size", "projection"});
+    view::Orbit& orbit = scene.viewpoint.orbit;
+    orbit.azimuth = reader.number(table, "azimuth");
+    orbit.elevation = reader.number(table, "elevation");
+    orbit.roll = reader.number(table, "roll");
+    orbit.distance = reader.number(table, "distance");
+    const auto target = reader.numbers<3>(table, "target");
+    orbit.target = {target[0], target[1], target[2]};
+    scene.viewpoint.fov = reader.number(table, "fov");
+    const auto size = reader.numbers<2>(table, "size");
+    const auto pixels = [&](double side) {  // out of range stays out of range
+        return side >= 1 && side <= 1e6 ? static_cast<int>(side) : 0;
+    };
+    scene.size = {pixels(size[0]), pixels(size[1])};
+    scene.viewpoint.projection =
+        static_cast<view::Projection>(reader.one_of(table, "projection", projections));
+}
+
+void read_drawing(Reader& reader, const toml::table& table, Scene& scene) {
+    reader.only_keys(
+        table, "[drawing]",
+        {"quality", "target_rate", "classify", "level_of_detail", "culling", "culling_threshold"});
+    const std::size_t quality = reader.one_of(table, "quality", qualities);
+    if (quality > 0) {
+        scene.quality = static_cast<view::Quality>(quality - 1);
+    }
+    scene.target_rate = reader.number(table, "target_rate");
+    scene.classify = static_cast<view::Classify>(reader.one_of(table, "classify", classifications));
+    const std::size_t level = reader.one_of(table, "level_of_detail", levels);
+    if (level > 0) {
+        scene.level_of_detail = level == 1;
+    }
+    scene.culling.kind = static_cast<culling::Kind>(reader.one_of(table, "culling", culling::kind_names));
+    scene.culling.threshold = reader.number(table, "culling_threshold");
+}
+
+// The shortest text that reads back as the same number.
+std::string number_text(double value) {
+    std::string digits = fmt::format("{}", value);
+    return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
+}
+
+std::string quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : base::printable(text, 200)) {
+        out += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+    }
+    return out + "\"";
+}
+
+}  // namespace
+
+base::Result<Scene> scene_from_toml(std::string_view text, std::string_view source) {
+    const std::string operation = fmt::format("read session {}", source);
+    if (text.size() > longest_text) {
+        return base::error(base::Code::too_large, operation, "more than 1 MiB");
+    }
+    toml::table root;
+    try {
+        root = toml::parse(text);
+    } catch (const toml::parse_error& fault) {
+        return base::error(base::Code::corrupt, operation,
+                           fmt::format("line {}: {}", fault.source().begin.line, fault.description()));
+    }
+    const auto refuse = [&](std::string what) {
+        return base::error(base::Code::invalid_argument, operation, std::move(what));
+    };
+    const auto written = root["version"].value_exact<std::int64_t>();
+    if (!written) {
+        return refuse("it has no version, and is no session");
+    }
+    if (*written != version) {
+        return refuse(fmt::format("it is of version {}, and {} is known", *written, version));
+    }
+    Reader reader;
+    reader.only_keys(root, "the session", {"version", "cube", "drawing", "transfer_function", "camera"});
+    Scene scene;
+    scene.cube = reader.text(root, "cube");
+    read_drawing(reader, reader.section(root, "drawing"), scene);
+    read_camera(reader, reader.section(root, "camera"), scene);
+    const toml::table& pins = reader.section(root, "transfer_function");
+    if (!reader.fault().empty()) {
+        return refuse(reader.fault());
+    }
+    auto tf = view::transfer_function_from_table(pins, operation);
+    if (!tf) {
+        return tf.error();
+    }
+    scene.tf = *std::move(tf);
+    if (const auto valid = validate(scene); !valid) {
+        return refuse(valid.error().detail);
+    }
+    return scene;
+}
+
+// The projection stands last, in quotes: of a text that is cut short something is always missing.
+std::string to_toml(const Scene& scene) {
+    const view::Orbit& orbit = scene.viewpoint.orbit;
+    const std::size_t quality = scene.quality ? static_cast<std::size_t>(*scene.quality) + 1 : 0;
+    const std::size_t level = scene.level_of_detail ? (*scene.level_of_detail ? 1 : 2) : 0;
+    std::string out = fmt::format("# A session of Shearwater's window.\nversion = {}\ncube = {}\n", version,
+                                  quoted(scene.cube));
+    out += fmt::format(
+        "\n[drawing]\nquality = \"{}\"\ntarget_rate = {}\nclassify = \"{}\"\nlevel_of_detail = \"{}\"\n"
+        "culling = \"{}\"\nculling_threshold = {}\n",
+        qualities[quality], number_text(scene.target_rate),
+        classifications[static_cast<std::size_t>(scene.classify)], levels[level],
+        culling::kind_names[static_cast<std::size_t>(scene.culling.kind)],
+        number_text(scene.culling.threshold));
+    out += "\n" + view::to_toml(scene.tf, "transfer_function");
+    out += fmt::format(
+        "\n[camera]\nazimuth = {}\nelevation = {}\nroll = {}\ndistance = {}  # 0: all of the cube is seen\n"
+        "target = [{}, {}, {}]\nfov = {}\nsize = [{}, {}]\nprojection = \"{}\"\n",
+        number_text(orbit.azimuth), number_text(orbit.elevation), number_text(orbit.roll),
+        number_text(orbit.distance), number_text(orbit.target.x), number_text(orbit.target.y),
+        number_text(orbit.target.z), number_text(scene.viewpoint.fov), scene.size.width, scene.size.height,
+        projections[static_cast<std::size_t>(scene.viewpoint.projection)]);
+    return out;
+}
+
+}  // namespace shearwater::scene
