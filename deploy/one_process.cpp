@@ -29,13 +29,22 @@ class Clock {
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-base::Result<volume::Mapping> mapping_for(cube::Cube& opened, const options::CubeOptions& cube,
-                                          base::Workers& workers, const volume::Progress& progress) {
+struct Values {
+    volume::Mapping mapping;
+    std::shared_ptr<const volume::Summary> summary;  // where they are counted
+};
+
+// Counts them where the limits come from that, or what is drawn does.
+base::Result<Values> values_of(cube::Cube& opened, const options::CubeOptions& cube, view::Unit unit,
+                               base::Workers& workers, const volume::Progress& progress) {
     volume::Mapping mapping{.stretch = cube.stretch_value(), .bits = cube.bits};
-    if (cube.range.size() == 2) {
+    const bool has_range = cube.range.size() == 2;
+    if (has_range) {
         mapping.lo = cube.range[0];
         mapping.hi = cube.range[1];
-        return mapping;
+    }
+    if (has_range && (unit == view::Unit::stretched || unit == view::Unit::value)) {
+        return Values{mapping, nullptr};
     }
     const auto& n = opened.info.n;
     const auto half = [&](double fraction) { progress(fraction / 2); };
@@ -43,16 +52,18 @@ base::Result<volume::Mapping> mapping_for(cube::Cube& opened, const options::Cub
     if (!histogram) {
         return histogram.error();
     }
-    const volume::Limits limits = volume::percentile_limits(*histogram, cube.percentile);
-    mapping.lo = limits.lo;
-    mapping.hi = limits.hi;
-    return mapping;
+    if (!has_range) {
+        const volume::Limits limits = volume::percentile_limits(*histogram, cube.percentile);
+        mapping.lo = limits.lo;
+        mapping.hi = limits.hi;
+    }
+    return Values{mapping, std::make_shared<const volume::Summary>(volume::summarise(*histogram, mapping))};
 }
 
 }  // namespace
 
 base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const ViewOptions& view,
-                                      const view::TransferFunction& tf, int threads, int repeat,
+                                      const view::AnchoredFunction& function, int threads, int repeat,
                                       const volume::Progress& progress) {
     base::Workers workers(threads);
     Clock clock;
@@ -70,14 +81,20 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
         return size ? camera.error() : size.error();
     }
     double load = clock.lap();
-    const auto mapping = mapping_for(*opened, cube, workers, progress);
-    if (!mapping) {
-        return mapping.error();
+    const auto values = values_of(*opened, cube, function.unit, workers, progress);
+    if (!values) {
+        return values.error();
     }
+    const view::ValueScale scale(values->mapping, values->summary);
+    const auto put = view::on_scale(function, &scale);
+    if (!put) {
+        return put.error();
+    }
+    const view::TransferFunction& tf = *put;
     double preprocess = clock.lap();
     const auto second_half = [&](double fraction) { progress(0.5 + fraction / 2); };
     const auto volume = shear::BrickVolume::load(*opened->source, volume::whole(lattice.n), lattice.n,
-                                                 *mapping, workers, second_half);
+                                                 values->mapping, workers, second_half);
     if (!volume) {
         return volume.error();
     }

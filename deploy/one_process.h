@@ -2,6 +2,7 @@
 // The whole pipeline in this process: --tree 1,1.
 
 #include "common/options/cube_options.h"
+#include "common/view/anchored_function.h"
 #include "common/volume/source.h"
 #include "deploy/picture.h"
 #include "deploy/view_options.h"
@@ -10,7 +11,7 @@ namespace shearwater::deploy {
 
 // Draws the picture `repeat` times. Progress covers both passes over the voxels.
 base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const ViewOptions& view,
-                                      const view::TransferFunction& tf, int threads, int repeat,
+                                      const view::AnchoredFunction& function, int threads, int repeat,
                                       const volume::Progress& progress);
 
 }  // namespace shearwater::deploy

@@ -7,10 +7,10 @@
 namespace shearwater::deploy {
 
 base::Result<Picture> draw_over_links(const std::string& program, Target& target, const ViewOptions& view,
-                                      const view::TransferFunction& tf, const view::ImageSize& size,
+                                      const view::AnchoredFunction& function, const view::ImageSize& size,
                                       const Repeat& repeat, const volume::Progress& progress) {
     std::optional<LocalTree>& tree = target.tree;
-    Still still(target.server, view, tf, size, repeat);
+    Still still(target.server, view, function, size, repeat);
     std::optional<daemon::Runtime> runtime;
     runtime.emplace(program, target.secret, [&](const wire::NetEvent& event) {
         runtime->perform(still.handle(event, std::chrono::steady_clock::now()));

@@ -12,7 +12,7 @@ namespace shearwater::deploy {
 // Draws `repeat.times` pictures, in their order, and keeps a tree of ours alive meanwhile. Progress
 // is Still's. `program` names us to the server.
 base::Result<Picture> draw_over_links(const std::string& program, Target& target, const ViewOptions& view,
-                                      const view::TransferFunction& tf, const view::ImageSize& size,
+                                      const view::AnchoredFunction& function, const view::ImageSize& size,
                                       const Repeat& repeat, const volume::Progress& progress);
 
 }  // namespace shearwater::deploy

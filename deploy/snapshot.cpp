@@ -36,14 +36,14 @@ base::Status write_json(const std::string& path, const Picture& picture) {
     return {};
 }
 
-base::Result<Picture> draw_by_tree(const Flags& flags, const view::TransferFunction& tf,
+base::Result<Picture> draw_by_tree(const Flags& flags, const view::AnchoredFunction& function,
                                    const view::ImageSize& size) {
     auto target = open_target(flags.target, "warn");
     if (!target) {
         return target.error();
     }
     ProgressBar bar(flags.repeat > 1 ? "loading and drawing" : "loading");
-    return draw_over_links(program, *target, flags.view, tf, size, {.times = flags.repeat},
+    return draw_over_links(program, *target, flags.view, function, size, {.times = flags.repeat},
                            [&](double fraction) { bar.show(fraction); });
 }
 
@@ -51,9 +51,9 @@ base::Status snapshot(const Flags& flags) {
     if (const auto valid = flags.target.validate(); !valid) {
         return valid;
     }
-    const auto tf = flags.view.drawing.transfer_function();
-    if (!tf) {
-        return tf.error();
+    const auto function = flags.view.drawing.transfer_function();
+    if (!function) {
+        return function.error();
     }
     const auto size = flags.view.image_size();
     if (!size) {
@@ -62,10 +62,10 @@ base::Status snapshot(const Flags& flags) {
     base::Result<Picture> picture = Picture{};
     if (flags.target.connect.empty() && flags.target.tree.one_process()) {
         ProgressBar bar("loading");
-        picture = draw_in_process(flags.target.cube, flags.view, *tf, flags.target.threads, flags.repeat,
+        picture = draw_in_process(flags.target.cube, flags.view, *function, flags.target.threads, flags.repeat,
                                   [&](double fraction) { bar.show(fraction); });
     } else {
-        picture = draw_by_tree(flags, *tf, *size);
+        picture = draw_by_tree(flags, *function, *size);
     }
     if (!picture) {
         return picture.error();

@@ -19,11 +19,13 @@ double seconds(wire::Time from, wire::Time to) {
 
 }  // namespace
 
-Still::Still(wire::Address server, ViewOptions options, view::TransferFunction tf, view::ImageSize size,
+Still::Still(wire::Address server, ViewOptions options, view::AnchoredFunction function, view::ImageSize size,
              const Repeat& repeat)
-    : server_(std::move(server)), options_(std::move(options)), repeat_(repeat) {
+    : server_(std::move(server)),
+      options_(std::move(options)),
+      repeat_(repeat),
+      function_(std::move(function)) {
     view_.size = size;
-    view_.tf = std::move(tf);
     view_.quality = options_.quality_value();
     view_.level_of_detail = options_.drawing.level_of_detail();
     view_.classify = options_.drawing.classification();
@@ -53,20 +55,51 @@ std::vector<wire::NetEffect> Still::handle(const wire::NetEvent& event, wire::Ti
         if (const auto* state = std::get_if<pb::TreeState>(&body)) {
             on_state(*state);
         } else if (const auto* cube = std::get_if<pb::CubeDescription>(&body)) {
-            const auto lattice = wire::lattice_from(cube->lattice());
-            if (!lattice) {
-                fail(base::Code::corrupt, lattice.error().text);
-            } else if (!lattice_) {
-                lattice_ = *lattice;
-                ask(now, effects);
-            }
+            on_cube(*cube, now, effects);
         } else if (std::holds_alternative<pb::Frame>(body)) {
             on_frame(received->message, now, effects);
         }
-    } else if (std::holds_alternative<wire::Tick>(event) && !times_.empty()) {
-        ask_ahead(now, effects);
+    } else if (std::holds_alternative<wire::Tick>(event)) {
+        ready_ = progress_ < 1 ? std::nullopt : std::optional(ready_.value_or(now));
+        if (!lattice_ && ready_ && now - *ready_ > patience) {
+            fail(base::Code::timed_out, "the server does not tell what values the cube has");
+        } else if (!times_.empty()) {
+            ask_ahead(now, effects);
+        }
     }
     return effects;
+}
+
+// What is told of a sketch is about to change, unless nothing depends on it.
+void Still::on_cube(const pb::CubeDescription& cube, wire::Time now, std::vector<wire::NetEffect>& effects) {
+    if (lattice_) {
+        return;
+    }
+    const auto lattice = wire::lattice_from(cube.lattice());
+    if (!lattice) {
+        return fail(base::Code::corrupt, lattice.error().text);
+    }
+    std::optional<view::ValueScale> scale;
+    if (function_.unit != view::Unit::stretched) {
+        const bool by_values = function_.unit != view::Unit::value;
+        if (cube.provisional() || (by_values && (!cube.has_values() || cube.values().provisional()))) {
+            return;
+        }
+        const auto mapping = wire::mapping_from(cube.mapping());
+        const auto values = wire::summary_from(cube.values());
+        if (!mapping || !values) {
+            return fail(base::Code::corrupt, mapping ? values.error().text : mapping.error().text);
+        }
+        scale.emplace(*mapping, std::make_shared<const volume::Summary>(*values));
+    }
+    auto tf = view::on_scale(function_, scale ? &*scale : nullptr);
+    if (!tf) {
+        failed_ = tf.error();
+        return;
+    }
+    view_.tf = *std::move(tf);
+    lattice_ = *lattice;
+    ask(now, effects);
 }
 
 void Still::on_state(const pb::TreeState& state) {

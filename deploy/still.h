@@ -25,7 +25,7 @@ struct Repeat {
 
 class Still {
   public:
-    Still(wire::Address server, ViewOptions options, view::TransferFunction tf, view::ImageSize size,
+    Still(wire::Address server, ViewOptions options, view::AnchoredFunction function, view::ImageSize size,
           const Repeat& repeat);
 
     std::vector<wire::NetEffect> start(wire::Time now);
@@ -39,7 +39,12 @@ class Still {
     double progress() const;
 
   private:
+    // For values that a function goes by, once all is loaded.
+    static constexpr std::chrono::seconds patience{20};
+
     void on_state(const wire::pb::TreeState& state);
+    void on_cube(const wire::pb::CubeDescription& cube, wire::Time now,
+                 std::vector<wire::NetEffect>& effects);
     void on_frame(const wire::Message& message, wire::Time now, std::vector<wire::NetEffect>& effects);
     void ask(wire::Time now, std::vector<wire::NetEffect>& effects);
     void ask_ahead(wire::Time now, std::vector<wire::NetEffect>& effects);
@@ -49,7 +54,9 @@ class Still {
     ViewOptions options_;
     wire::View view_;
     Repeat repeat_;
-    std::optional<view::Lattice> lattice_;
+    view::AnchoredFunction function_;
+    std::optional<view::Lattice> lattice_;  // once there is what is needed to ask
+    std::optional<wire::Time> ready_;       // since when all is loaded
     std::vector<Seconds> times_;
     Picture picture_;
     wire::Time started_{};

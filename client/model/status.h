@@ -1,13 +1,16 @@
 #pragma once
 // What the session knows, for the panel to show.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/image/image.h"
 #include "common/view/factorisation.h"
+#include "common/view/value_scale.h"
 #include "common/volume/mapping.h"
+#include "common/volume/summary.h"
 #include "protocol/wire/shearwater.pb.h"
 
 namespace shearwater::model {
@@ -16,8 +19,11 @@ struct Cube {
     std::string name, object, unit;  // printable
     view::Lattice lattice;
     volume::Mapping mapping;
-    bool provisional = false;  // its limits, which are those of a sketch
-    bool operator==(const Cube&) const = default;
+    bool provisional = false;                       // its limits, which are those of a sketch
+    std::shared_ptr<const volume::Summary> values;  // null until any are counted
+    bool provisional_values = false;                // they are those of a sketch
+
+    view::ValueScale scale() const { return view::ValueScale(mapping, values); }
 };
 
 struct Node {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "client/model/anchoring.h"
 #include "client/view/desk.h"
 #include "client/view/network.h"
 #include "client/view/window.h"
@@ -10,7 +11,7 @@
 namespace shearwater::ui {
 
 struct AppOptions {
-    view::TransferFunction tf = view::default_transfer_function();
+    view::AnchoredFunction tf{.tf = view::default_transfer_function()};
     std::optional<bool> level_of_detail;
     view::Classify classify = view::Classify::post;
     culling::Settings culling;
@@ -38,12 +39,15 @@ class App {
     Window& window_;
     Network& network_;
     const AppOptions options_;
+    PresetShelf presets_;
     Desk desk_;
+    model::Anchoring anchoring_;
     model::Wish sent_;
     model::Effort sent_effort_;
     std::optional<view::Lattice> known_lattice_;
     double active_until_ = 0;  // seconds of ImGui's clock
     int settled_passes_ = 0;
+    bool fault_told_ = false;  // of the function that the window was opened with
 };
 
 }  // namespace shearwater::ui

@@ -5,16 +5,20 @@
 
 #include "client/model/session.h"
 #include "client/view/controls.h"
+#include "client/view/editor_state.h"
+#include "client/view/preset_shelf.h"
 #include "client/view/texture.h"
 #include "client/view/theme.h"
 
 namespace shearwater::ui {
 
 struct Desk {
-    Desk(theme::Fonts fonts_in, float scale_in) : fonts(fonts_in), scale(scale_in) {}
+    Desk(theme::Fonts fonts_in, float scale_in, PresetShelf& presets_in)
+        : fonts(fonts_in), scale(scale_in), presets(presets_in) {}
 
     const theme::Fonts fonts;
     const float scale;
+    PresetShelf& presets;
 
     // From the network.
     model::Status status;
@@ -29,8 +33,10 @@ struct Desk {
     bool retry = false;     // asked to dial now
     bool escape = false;    // the key was pressed in this pass
     bool panel = true;
+    bool dock = true;
+    int dock_tab = 0;
     Controls controls;
-    int ramp_end = -1;  // the ramp's end being dragged: 0, 1, or none
+    EditorState editor;
 
     float px(float nominal) const { return nominal * scale; }
     bool has_cube() const { return status.cube.has_value(); }

@@ -47,6 +47,9 @@ constexpr HelpLine help_lines[] = {
     {"C, Shift C", "next, previous colour map"},
     {"I", "reverse the colour map"},
     {"Arrows, +, -", "turn, zoom"},
+    {"E", "hide or show the editor"},
+    {"Ctrl drag on the plot", "snap to edges and round values"},
+    {"Delete", "delete the selected pin"},
     {"Tab", "hide or show this panel"},
     {"Ctrl Q", "quit"},
 };

@@ -15,7 +15,6 @@ void panel(Desk& desk, ImVec2 from, ImVec2 size) {
     link_section(desk);
     cube_section(desk);
     camera_section(desk);
-    colour_section(desk);
     speed_section(desk);
     tree_list(desk);
     ImGui::End();

@@ -9,7 +9,6 @@ namespace shearwater::ui {
 void link_section(Desk& desk);
 void cube_section(Desk& desk);
 void camera_section(Desk& desk);
-void colour_section(Desk& desk);
 // Quality, culling, and how fast frames come.
 void speed_section(Desk& desk);
 

@@ -23,6 +23,12 @@ bool section(Desk& desk, const char* title, bool unfolded_at_first = true);
 void dot(const Desk& desk, ImU32 colour);
 // Buttons side by side, one of which holds. The one that does afterwards.
 int switch_among(const Desk& desk, std::initializer_list<const char*> labels, int holds);
+// A choice that drops down, closed again by the escape key: true while it is open, and ImGui::EndCombo() is
+// to follow its entries. It is noted as `control`.
+bool begin_choice(Desk& desk, const char* id, const std::string& shown, const std::string& control,
+                  const char* tip = nullptr);
+// A number that is typed; true when another one has been, by the enter key or by going elsewhere.
+bool number_field(Desk& desk, const std::string& id, double& value);
 // A share done, thin.
 void progress_line(const Desk& desk, double fraction, ImU32 colour, float width);
 // The pins' colours from left to right.

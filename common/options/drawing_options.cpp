@@ -44,8 +44,9 @@ void DrawingOptions::add_culling_threshold(CLI::App& app, const std::string& gro
         ->group(group);
 }
 
-base::Result<view::TransferFunction> DrawingOptions::transfer_function() const {
-    return tf_file.empty() ? view::default_transfer_function() : read_transfer_function(tf_file);
+base::Result<view::AnchoredFunction> DrawingOptions::transfer_function() const {
+    return tf_file.empty() ? view::AnchoredFunction{.tf = view::default_transfer_function()}
+                           : read_transfer_function(tf_file);
 }
 
 view::Classify DrawingOptions::classification() const {
@@ -70,7 +71,7 @@ std::vector<std::string> DrawingOptions::arguments() const {
     return words;
 }
 
-base::Result<view::TransferFunction> read_transfer_function(const std::string& path) {
+base::Result<view::AnchoredFunction> read_transfer_function(const std::string& path) {
     constexpr std::size_t most_bytes = 1 << 20;
     const auto text = base::read_text_file(path, most_bytes);
     if (!text) {

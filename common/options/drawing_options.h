@@ -8,8 +8,8 @@
 
 #include "common/base/result.h"
 #include "common/culling/settings.h"
+#include "common/view/anchored_function.h"
 #include "common/view/factorisation.h"
-#include "common/view/transfer_function.h"
 
 namespace shearwater::options {
 
@@ -27,7 +27,7 @@ struct DrawingOptions {
     void add_culling_threshold(CLI::App& app, const std::string& group = "Options");
 
     // That of the file, or the default one.
-    base::Result<view::TransferFunction> transfer_function() const;
+    base::Result<view::AnchoredFunction> transfer_function() const;
     view::Classify classification() const;
     std::optional<bool> level_of_detail() const {
         return lod.empty() ? std::nullopt : std::optional(lod == "on");
@@ -39,6 +39,6 @@ struct DrawingOptions {
 };
 
 // Of a file of TOML.
-base::Result<view::TransferFunction> read_transfer_function(const std::string& path);
+base::Result<view::AnchoredFunction> read_transfer_function(const std::string& path);
 
 }  // namespace shearwater::options

@@ -33,7 +33,11 @@ base::Result<std::vector<Case>> CaseOptions::cases() const {
         }
         return cases;
     }
-    const auto tf = options::DrawingOptions{.tf_file = tf_file}.transfer_function();
+    const auto function = options::DrawingOptions{.tf_file = tf_file}.transfer_function();
+    if (!function) {
+        return function.error();
+    }
+    const auto tf = view::on_scale(*function, nullptr);
     if (!tf) {
         return tf.error();
     }

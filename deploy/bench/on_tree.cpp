@@ -45,7 +45,7 @@ base::Result<deploy::Picture> OnTree::draw_path(deploy::ViewOptions view, int fr
     const int before = in_flight > 1 ? until_all_fly : 1;
     view.orbit.azimuth -= before * Path::turn;
     auto picture = deploy::draw_over_links(
-        "shearwater bench", target_, view, tf, *size,
+        "shearwater bench", target_, view, {.tf = tf}, *size,
         {.times = before + frames, .turn = Path::turn, .in_flight = in_flight}, progress);
     if (picture) {
         picture->each.erase(picture->each.begin(), picture->each.begin() + before);

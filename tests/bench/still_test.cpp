@@ -36,8 +36,11 @@ ViewOptions options_from(double azimuth) {
 }
 
 Still still_of(const Repeat& repeat) {
-    return {
-        {.host = "127.0.0.1", .port = 1}, options_from(10), view::default_transfer_function(), size, repeat};
+    return {{.host = "127.0.0.1", .port = 1},
+            options_from(10),
+            {.tf = view::default_transfer_function()},
+            size,
+            repeat};
 }
 
 wire::NetEvent description() {
