@@ -22,8 +22,8 @@ struct Held {
 };
 
 struct EditorState {
-    std::optional<std::size_t> pin;     // selected
-    std::optional<std::size_t> colour;  // selected
+    std::optional<std::size_t> pin = 0;  // selected
+    std::optional<std::size_t> colour;   // selected
     std::optional<Held> held;
     std::optional<double> held_colour;    // from the mouse to the colour pin, in s
     double menu_s = 0, menu_opacity = 0;  // where the menu was opened

@@ -103,23 +103,32 @@ void colour_fields(Desk& desk) {
 }
 
 void density(Desk& desk) {
-    float k = static_cast<float>(desk.wish.tf.density);
+    double& density = desk.wish.tf.density;
+    float k = static_cast<float>(density);
+    const float number = desk.px(62);
     ImGui::AlignTextToFramePadding();
     small_text(desk, theme::muted, "density");
     ImGui::SameLine(desk.px(52));
-    ImGui::SetNextItemWidth(-FLT_MIN);
-    if (ImGui::SliderFloat("##density", &k, 0.01F, 100, "\u00d7 %.3g",
-                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
-        desk.wish.tf.density = static_cast<double>(k);
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - number - desk.px(6));
+    if (ImGui::SliderFloat(
+            "##density", &k, 0.01F, 100, "",
+            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat)) {
+        density = static_cast<double>(k);
         desk.dragging = ImGui::IsItemActive();
     }
     if (ImGui::IsItemHovered()) {
         ImGui::SetTooltip("multiplies the extinction of all pins: 1 - (1 - opacity)^density");
         if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-            desk.wish.tf.density = 1;
+            density = 1;
         }
     }
     desk.controls.note("editor/density");
+    ImGui::SameLine(0, desk.px(6));
+    ImGui::SetNextItemWidth(number);
+    if (double typed = density; number_field(desk, "##density typed", typed)) {
+        density = std::clamp(typed, view::TransferFunction::min_density, view::TransferFunction::max_density);
+    }
+    desk.controls.note("editor/field/density");
 }
 
 void map_choice(Desk& desk) {

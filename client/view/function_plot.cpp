@@ -35,7 +35,7 @@ void draw_counts(const Desk& desk, ImDrawList& list, const Plot& plot) {
     if (!desk.has_cube() || desk.status.cube->values == nullptr || desk.status.cube->values->empty()) {
         const char* words = "the histogram is not known yet";
         list.AddText(desk.fonts.small, desk.fonts.small->FontSize,
-                     {plot.from.x + desk.px(60), plot.to.y - desk.px(18)}, mark_text, words);
+                     {plot.from.x + desk.px(60), plot.from.y + desk.px(4)}, mark_text, words);
         return;
     }
     const std::vector<std::uint64_t>& counts = desk.status.cube->values->counts;
@@ -53,7 +53,7 @@ void draw_counts(const Desk& desk, ImDrawList& list, const Plot& plot) {
     }
     if (first) {
         list.AddText(desk.fonts.small, desk.fonts.small->FontSize,
-                     {plot.from.x + desk.px(60), plot.to.y - desk.px(18)}, theme::busy, "of a first look");
+                     {plot.from.x + desk.px(60), plot.from.y + desk.px(4)}, theme::busy, "of a first look");
     }
 }
 

@@ -36,7 +36,7 @@ bool shape_button(Desk& desk, model::Shape shape) {
         list.AddLine(at(0.2, 0), at(0.8, 1), theme::text, desk.px(1.2F));
         return pressed;
     }
-    const view::OpacityPin pin = model::retyped(view::Hat{0.5, 0.2, 1, 0.95}, shape);
+    const view::OpacityPin pin = model::retyped(view::Hat{0.5, 0.5, 1, 0.95}, shape);
     std::vector<ImVec2> outline;
     for (const double s : {0.0, 1e-6, 0.25, 0.5, 0.75, 1 - 1e-6, 1.0}) {
         const bool foot = shape == model::Shape::top_hat && (s == 0 || s == 1);

@@ -78,7 +78,7 @@ void dot(const Desk& desk, ImU32 colour) {
     ImGui::SameLine();
 }
 
-int switch_among(const Desk& desk, std::initializer_list<const char*> labels, int holds) {
+int switch_among(Desk& desk, std::initializer_list<const char*> labels, int holds) {
     const float count = static_cast<float>(labels.size());
     const float gap = desk.px(4);
     const float width = (ImGui::GetContentRegionAvail().x - gap * (count - 1)) / count;
@@ -93,6 +93,7 @@ int switch_among(const Desk& desk, std::initializer_list<const char*> labels, in
             ImGui::PushStyleColor(ImGuiCol_ButtonHovered, IM_COL32(50, 84, 132, 255));
         }
         holds_now = ImGui::Button(label, {width, 0}) ? i : holds_now;
+        desk.controls.note(std::string("switch/") + label);
         if (i == holds) {
             ImGui::PopStyleColor(2);
         }

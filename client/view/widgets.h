@@ -21,8 +21,8 @@ void small_text(const Desk& desk, ImU32 colour, const std::string& text);
 bool section(Desk& desk, const char* title, bool unfolded_at_first = true);
 // A filled circle of the line's height, where the cursor is; the next item follows on the same line.
 void dot(const Desk& desk, ImU32 colour);
-// Buttons side by side, one of which holds. The one that does afterwards.
-int switch_among(const Desk& desk, std::initializer_list<const char*> labels, int holds);
+// Buttons side by side, one of which holds, noted as "switch/LABEL". The one that does afterwards.
+int switch_among(Desk& desk, std::initializer_list<const char*> labels, int holds);
 // A choice that drops down, closed again by the escape key: true while it is open, and ImGui::EndCombo() is
 // to follow its entries. It is noted as `control`.
 bool begin_choice(Desk& desk, const char* id, const std::string& shown, const std::string& control,
