@@ -74,7 +74,7 @@ double opacity_at(OpacityAxis axis, double share) {
 std::vector<double> opacity_marks(OpacityAxis axis) {
     switch (axis) {
         case OpacityAxis::cube_root:
-            return {0.001, 0.01, 0.1, 0.5};
+            return {0.01, 0.1, 0.5};
         case OpacityAxis::logarithmic:
             return {1e-4, 1e-3, 0.01, 0.1};
         case OpacityAxis::linear:

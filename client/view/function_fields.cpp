@@ -14,7 +14,7 @@ namespace {
 
 // One of two columns: a label, and a number behind it that is typed.
 bool labelled_number(Desk& desk, const std::string& label, double& value, bool left) {
-    const float label_width = desk.px(52);
+    const float label_width = desk.px(50);
     const float width = (ImGui::GetWindowContentRegionMax().x - desk.px(8)) / 2;
     if (!left) {
         ImGui::SameLine(width + desk.px(8));
@@ -108,7 +108,7 @@ void density(Desk& desk) {
     const float number = desk.px(62);
     ImGui::AlignTextToFramePadding();
     small_text(desk, theme::muted, "density");
-    ImGui::SameLine(desk.px(52));
+    ImGui::SameLine(desk.px(50));
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - number - desk.px(6));
     if (ImGui::SliderFloat(
             "##density", &k, 0.01F, 100, "",
@@ -140,7 +140,7 @@ void map_choice(Desk& desk) {
     const float button = ImGui::CalcTextSize("Reverse").x + 2 * ImGui::GetStyle().FramePadding.x;
     ImGui::AlignTextToFramePadding();
     small_text(desk, theme::muted, "colours");
-    ImGui::SameLine(desk.px(52));
+    ImGui::SameLine(desk.px(50));
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - desk.px(6));
     if (begin_choice(desk, "##map", current.empty() ? "own pins" : current, "editor/map")) {
         for (const std::string& name : view::colour_map_names()) {

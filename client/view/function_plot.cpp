@@ -12,7 +12,7 @@ namespace shearwater::ui {
 namespace {
 
 constexpr ImU32 grid_line = IM_COL32(36, 40, 48, 255);
-constexpr ImU32 mark_text = IM_COL32(122, 130, 144, 255);
+constexpr ImU32 mark_text = IM_COL32(150, 158, 172, 255);
 constexpr ImU32 counts_colour = IM_COL32(62, 72, 92, 255);
 constexpr ImU32 first_counts_colour = IM_COL32(46, 52, 64, 255);
 constexpr ImU32 outline = IM_COL32(196, 202, 212, 200);
@@ -20,10 +20,16 @@ constexpr ImU32 outline_fill = IM_COL32(196, 202, 212, 22);
 constexpr ImU32 selected_outline = IM_COL32(255, 196, 92, 255);
 constexpr ImU32 selected_fill = IM_COL32(255, 196, 92, 40);
 
-void draw_grid(const Desk& desk, ImDrawList& list, const Plot& plot) {
+void draw_grid(ImDrawList& list, const Plot& plot) {
     for (const double opacity : model::opacity_marks(plot.axis)) {
         const float y = std::round(plot.y(opacity));
         list.AddLine({plot.from.x, y}, {plot.to.x, y}, grid_line);
+    }
+}
+
+void draw_opacities(const Desk& desk, ImDrawList& list, const Plot& plot) {
+    for (const double opacity : model::opacity_marks(plot.axis)) {
+        const float y = std::round(plot.y(opacity));
         list.AddText(desk.fonts.small, desk.fonts.small->FontSize * 0.92F,
                      {plot.from.x + desk.px(4), y - desk.fonts.small->FontSize - desk.px(1)}, mark_text,
                      fmt::format("{:g}", opacity).c_str());
@@ -92,7 +98,7 @@ void draw_pin(const Desk& desk, ImDrawList& list, const Plot& plot, const view::
         line.push_back(at);
     }
     list.AddPolyline(line.data(), static_cast<int>(line.size()), selected ? selected_outline : outline, 0,
-                     desk.px(selected ? 1.6F : 1));
+                     desk.px(selected ? 1.3F : 1));
 }
 
 // The effective opacity, as in the paper's Fig. 6 a thick blue line, over the colours it is for.
@@ -108,8 +114,8 @@ void draw_effect(const Desk& desk, ImDrawList& list, const Plot& plot) {
         }
         line.push_back(at);
     }
-    list.AddPolyline(line.data(), static_cast<int>(line.size()), IM_COL32(10, 12, 16, 200), 0, desk.px(5));
-    list.AddPolyline(line.data(), static_cast<int>(line.size()), theme::accent, 0, desk.px(3));
+    list.AddPolyline(line.data(), static_cast<int>(line.size()), IM_COL32(10, 12, 16, 200), 0, desk.px(6));
+    list.AddPolyline(line.data(), static_cast<int>(line.size()), theme::accent, 0, desk.px(4));
 }
 
 // What is under the mouse, in all units that there are.
@@ -173,14 +179,13 @@ std::vector<ImVec2> handle_places(const Desk& desk, const Plot& plot, const view
     for (const model::Handle& handle : model::handles_of(pin)) {
         ImVec2 at{plot.x(std::clamp(handle.s, 0.0, 1.0)),
                   handle.height ? plot.y(*handle.height) : (plot.from.y + plot.to.y) / 2};
+        if (handle.name.starts_with("top")) {
+            at.y = std::min(at.y, plot.to.y - aside);
+        }
         if (handle.name == "top-low") {
             at.x = std::min(at.x, places[0].x - aside);
         } else if (handle.name == "top-high") {
             at.x = std::max(at.x, places[0].x + aside);
-        } else if (handle.name == "base-low") {
-            at.y = std::max(at.y, places[0].y + aside);
-        } else if (handle.name == "base-high") {
-            at.y = std::max(at.y, places[0].y + aside);
         }
         places.push_back(at);
     }
@@ -218,7 +223,7 @@ void function_plot(Desk& desk, const Plot& plot) {
     list.PushClipRect({plot.from.x - desk.px(7), plot.from.y - desk.px(7)},
                       {plot.to.x + desk.px(7), plot.to.y + desk.px(7)}, true);
     draw_counts(desk, list, plot);
-    draw_grid(desk, list, plot);
+    draw_grid(list, plot);
     const auto& pins = desk.wish.tf.opacity_pins;
     for (std::size_t i = 0; i < pins.size(); ++i) {
         if (desk.editor.pin != i) {
@@ -229,6 +234,7 @@ void function_plot(Desk& desk, const Plot& plot) {
     if (desk.editor.pin) {
         draw_pin(desk, list, plot, pins[*desk.editor.pin], true);
     }
+    draw_opacities(desk, list, plot);
     const bool is_over = plot_mouse(desk, plot);
     if (desk.editor.pin) {
         draw_handles(desk, list, plot);

@@ -13,7 +13,7 @@ namespace shearwater::ui {
 
 namespace {
 
-constexpr float fields_width = 262, gap = 12;  // nominal pixels
+constexpr float fields_width = 284, gap = 12;  // nominal pixels
 
 // A button with the shape's outline on it.
 bool shape_button(Desk& desk, model::Shape shape) {

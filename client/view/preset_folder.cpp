@@ -78,7 +78,7 @@ base::Result<view::AnchoredFunction> PresetFolder::read(const std::string& name)
         return file.error();
     }
     const auto text = base::read_text_file(file->string(), most_bytes);
-    return text ? view::transfer_function_from_toml(*text, file->string()) : text.error();
+    return text ? view::transfer_function_from_toml(*text, "'" + name + "'") : text.error();
 }
 
 base::Status PresetFolder::write(const std::string& name, const view::AnchoredFunction& function) const {

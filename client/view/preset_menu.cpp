@@ -114,11 +114,11 @@ void preset_menu(Desk& desk) {
         desk.controls.note("editor/preset-name");
         anchor_choice(desk);
         buttons(desk);
-        if (!editor.message.empty()) {
-            ImGui::PushTextWrapPos(desk.px(312));
-            small_text(desk, editor.is_fault ? theme::bad : theme::good, editor.message);
-            ImGui::PopTextWrapPos();
-        }
+        ImGui::BeginChild("said", {desk.px(300), desk.px(40)});
+        ImGui::PushTextWrapPos(0);
+        small_text(desk, editor.is_fault ? theme::bad : theme::good, editor.message);
+        ImGui::PopTextWrapPos();
+        ImGui::EndChild();
         ImGui::EndPopup();
     }
     ImGui::PopStyleVar();

@@ -124,7 +124,7 @@ bool number_field(Desk& desk, const std::string& id, double& value) {
     if (editor.typing == own) {
         text = editor.typed;
     } else {
-        fmt::format_to_n(text.data(), text.size() - 1, "{:.5g}", value == 0 ? 0.0 : value);
+        fmt::format_to_n(text.data(), text.size() - 1, "{:.4g}", value == 0 ? 0.0 : value);
     }
     ImGui::InputText(id.c_str(), text.data(), text.size(),
                      ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_CharsNoBlank);

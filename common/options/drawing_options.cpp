@@ -7,7 +7,8 @@
 namespace shearwater::options {
 
 void DrawingOptions::add_to(CLI::App& app, const std::string& group) {
-    app.add_option("--tf", tf_file, "transfer function, a TOML file")->group(group);
+    app.add_option("--tf", tf_file, "transfer function, a TOML file; its [scale] says by what it is placed")
+        ->group(group);
     add_classify(app, group);
     add_lod(app, group);
     app.add_option("--culling", culling,

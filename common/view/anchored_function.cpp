@@ -36,7 +36,8 @@ Hat converted(const Hat& hat, const Convert& to) {
                .base = foot_high - foot_low,
                .height = hat.height};
     const double room = (result.base - result.top) / 2;
-    result.lean = std::clamp((low + high) / 2 - result.centre, -room, room);
+    const double lean = std::clamp((low + high) / 2 - result.centre, -room, room);
+    result.lean = std::abs(lean) < 1e-12 * result.base ? 0 : lean;  // an upright one stays so
     return result;
 }
 
