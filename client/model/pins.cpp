@@ -36,14 +36,24 @@ Corners corners_of(const Hat& hat) {
     return {hat.centre - hat.base / 2, middle - hat.top / 2, middle + hat.top / 2, hat.centre + hat.base / 2};
 }
 
-Hat hat_of(const Corners& c, double height) {
-    Hat hat{.centre = (c[0] + c[3]) / 2, .top = c[2] - c[1], .base = c[3] - c[0], .height = height};
-    const double room = std::max((hat.base - hat.top) / 2, 0.0);
-    hat.base = std::max(hat.base, hat.top);
-    const double lean = (c[1] + c[2]) / 2 - hat.centre;
+// With its top within its base, and all of it within reach.
+Hat kept(Hat hat) {
+    hat.centre = position(hat.centre);
+    hat.base = std::clamp(hat.base, 0.0, view::TransferFunction::farthest / 2);
+    hat.top = std::clamp(hat.top, 0.0, hat.base);
+    const double room = (hat.base - hat.top) / 2;
     // An upright hat stays so, whatever the roundings.
-    hat.lean = std::abs(lean) < 1e-12 ? 0 : std::clamp(lean, -room, room);
+    hat.lean = std::abs(hat.lean) < 1e-12 ? 0 : std::clamp(hat.lean, -room, room);
     return hat;
+}
+
+Hat hat_of(const Corners& c, double height) {
+    const double centre = (c[0] + c[3]) / 2;
+    return kept({.centre = centre,
+                 .top = c[2] - c[1],
+                 .base = c[3] - c[0],
+                 .height = height,
+                 .lean = (c[1] + c[2]) / 2 - centre});
 }
 
 struct Extent {
@@ -89,11 +99,8 @@ Hat with_edge(const Hat& hat, std::size_t handle, double s) {
         moved.base = std::max(hat.base, moved.top + 2 * std::abs(hat.lean));
     } else {
         moved.base = 2 * std::abs(s - hat.centre);
-        moved.top = std::min(hat.top, moved.base);
-        const double room = (moved.base - moved.top) / 2;
-        moved.lean = std::clamp(hat.lean, -room, room);
     }
-    return moved;
+    return kept(moved);
 }
 
 }  // namespace
@@ -168,7 +175,7 @@ OpacityPin dragged(const OpacityPin& pin, std::size_t handle, double s, double h
                                      }
                                      hat.centre = s - hat.lean;
                                      hat.height = a;
-                                     return hat;
+                                     return kept(hat);
                                  },
                                  [&](Flat) -> OpacityPin { return Flat{a}; },
                                  [&](Blank blank) -> OpacityPin {
@@ -187,18 +194,18 @@ OpacityPin shifted(const OpacityPin& pin, double by) {
     return std::visit(Overloaded{[&](Ramp ramp) -> OpacityPin {
                                      const double width = ramp.x1 - ramp.x0;
                                      ramp.x0 = position(ramp.x0 + by);
-                                     ramp.x1 = ramp.x0 + width;
+                                     ramp.x1 = std::min(ramp.x0 + width, view::TransferFunction::farthest);
                                      return ramp;
                                  },
                                  [&](Hat hat) -> OpacityPin {
-                                     hat.centre = position(hat.centre + by);
-                                     return hat;
+                                     hat.centre += by;
+                                     return kept(hat);
                                  },
                                  [](Flat flat) -> OpacityPin { return flat; },
                                  [&](Blank blank) -> OpacityPin {
                                      const double width = blank.hi - blank.lo;
                                      blank.lo = position(blank.lo + by);
-                                     blank.hi = blank.lo + width;
+                                     blank.hi = std::min(blank.lo + width, view::TransferFunction::farthest);
                                      return blank;
                                  }},
                       pin);

@@ -117,10 +117,10 @@ void density(Desk& desk) {
         desk.dragging = ImGui::IsItemActive();
     }
     if (ImGui::IsItemHovered()) {
-        ImGui::SetTooltip("multiplies the extinction of all pins: 1 - (1 - opacity)^density");
-        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-            density = 1;
-        }
+        ImGui::SetTooltip("multiplies the extinction of all pins; a right click makes it 1");
+    }
+    if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) {
+        density = 1;
     }
     desk.controls.note("editor/density");
     ImGui::SameLine(0, desk.px(6));

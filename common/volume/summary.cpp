@@ -46,6 +46,9 @@ class Cumulative {
 
     // The distance from `middle` within which half of the values lie.
     double half_width(double middle) const {
+        if (up_to(middle) - below(middle) >= total() / 2) {
+            return 0;
+        }
         double least = 0, most = std::max(middle - bins_.front().from, bins_.back().to - middle);
         for (int i = 0; i < 64; ++i) {
             const double width = least + (most - least) / 2;

@@ -134,7 +134,7 @@ TEST(Ticks, AreRoundInEveryUnit) {
     EXPECT_EQ(by_value.front().label, "-0.5");
     EXPECT_EQ(by_value[1].label, "0");
     const auto by_sigma = ticks(scale, view::Unit::sigma, 6);
-    EXPECT_EQ(by_sigma.front().label, "-3") << "limits at -3 and 3 sigma, steps of 1";
+    EXPECT_EQ(by_sigma.front().label, "-2") << "limits at about -3 and 3 sigma, steps of 2";
 }
 
 TEST(Ticks, OfHostileScalesAreFew) {

@@ -237,10 +237,23 @@ class WindowTest : public testing::Test {
         const auto [x, y] = control(name);
         display_->drag(1, x, y, dx, dy, held_key);
     }
-    // In a combo, or a menu that a button opens.
+    // What closes with this, or is hidden.
+    void gone(const std::string& name) {
+        const auto end = std::chrono::steady_clock::now() + 60s;
+        while (has_control(name)) {
+            std::this_thread::sleep_for(50ms);
+            ASSERT_LT(std::chrono::steady_clock::now(), end) << name << " stays";
+        }
+    }
+    // What closes the menu that it is in.
+    void pick(const std::string& name) {
+        click(name);
+        gone(name);
+    }
+    // In a combo.
     void choose(const std::string& name, const std::string& entry) {
         click(name);
-        click(name + "/" + entry);
+        pick(name + "/" + entry);
     }
     // Into a field, instead of what it holds.
     void enter(const std::string& name, const std::string& text) {

@@ -82,10 +82,11 @@ TEST(Summary, QuantilesAreTheHistograms) {
     const Summary summary = summarise(histogram, {.lo = 0, .hi = 6});
     ASSERT_EQ(summary.quantiles.size(), Summary::quantile_count);
     for (std::size_t i = 0; i < Summary::quantile_count; i += 10) {
-        EXPECT_NEAR(summary.quantiles[i], histogram.quantile(Summary::share_of(i)), 1e-9) << i;
+        const double wanted = histogram.quantile(Summary::share_of(i));
+        EXPECT_NEAR(summary.quantiles[i], wanted, std::abs(wanted) / 2048) << i << ": in the same bin";
     }
     for (const double share : {0.0, 1e-5, 0.0025, 0.1, 0.5, 0.75, 0.9975, 0.9999, 1.0}) {
-        EXPECT_NEAR(summary.value_at(share), histogram.quantile(share), 0.02) << share;
+        EXPECT_NEAR(summary.value_at(share), histogram.quantile(share), 0.03) << share;
     }
 }
 

@@ -182,8 +182,8 @@ TEST(Bytes, OfWhatTheEditorShowsAndMakes) {
     };
     const std::string described = body_of(editor.at(0)), before = of(editor[0]);
     EXPECT_EQ(described.substr(0, before.size()), before);
-    EXPECT_EQ(described.substr(before.size(), 112),
-              "f201f63e"    // 30: 8054 bytes
+    EXPECT_EQ(described.substr(before.size(), 124),
+              "f201fa3e"    // 30: 8058 bytes
               "0a0301ac02"  // counts
               "1002"
               "1803"
@@ -194,7 +194,7 @@ TEST(Bytes, OfWhatTheEditorShowsAndMakes) {
               "41000000000000d03f"
               "4ac83e"  // 1001 quantiles of 8 bytes, the first
               "00000000000000c0");
-    EXPECT_EQ(described.size() - before.size(), 2 * (4 + 8054));
+    EXPECT_EQ(described.size() - before.size(), 2 * (4 + 8058));
     const std::string view = body_of(editor.at(1));
     EXPECT_NE(view.find("21000000000000e83f"
                         "f101000000000000b03f"),
