@@ -79,11 +79,11 @@ OpacityPin made(Shape shape, const Extent& extent) {
         case Shape::ramp:
             return Ramp{extent.lo, 0, std::max(extent.hi, extent.lo + least_width), extent.height};
         case Shape::hat:
-            return Hat{.centre = centre, .top = width / 2, .base = width, .height = extent.height};
+            return kept({.centre = centre, .top = width / 2, .base = width, .height = extent.height});
         case Shape::top_hat:
-            return Hat{.centre = centre, .top = width, .base = width, .height = extent.height};
+            return kept({.centre = centre, .top = width, .base = width, .height = extent.height});
         case Shape::triangle:
-            return Hat{.centre = centre, .top = 0, .base = width, .height = extent.height};
+            return kept({.centre = centre, .top = 0, .base = width, .height = extent.height});
         case Shape::flat:
             return Flat{extent.height};
         case Shape::blank:

@@ -98,7 +98,7 @@ void draw_pin(const Desk& desk, ImDrawList& list, const Plot& plot, const view::
         line.push_back(at);
     }
     list.AddPolyline(line.data(), static_cast<int>(line.size()), selected ? selected_outline : outline, 0,
-                     desk.px(selected ? 1.3F : 1));
+                     desk.px(selected ? 2 : 1));
 }
 
 // The effective opacity, as in the paper's Fig. 6 a thick blue line, over the colours it is for.
@@ -230,10 +230,10 @@ void function_plot(Desk& desk, const Plot& plot) {
             draw_pin(desk, list, plot, pins[i], false);
         }
     }
-    draw_effect(desk, list, plot);
     if (desk.editor.pin) {
         draw_pin(desk, list, plot, pins[*desk.editor.pin], true);
     }
+    draw_effect(desk, list, plot);
     draw_opacities(desk, list, plot);
     const bool is_over = plot_mouse(desk, plot);
     if (desk.editor.pin) {
