@@ -97,12 +97,14 @@ void App::widgets() {
     const ImVec2 all = ImGui::GetIO().DisplaySize;
     const float panel_size = desk_.panel ? std::min(desk_.px(panel_width), all.x / 2) : 0;
     const float status_size = desk_.px(status_height);
-    const float dock_size = desk_.dock ? std::min(desk_.px(dock_height), all.y / 2) : 0;
+    const bool has_dock =
+        desk_.dock && all.x - panel_size >= desk_.px(dock_width) && all.y >= 2 * desk_.px(dock_height);
+    const float dock_size = has_dock ? desk_.px(dock_height) : 0;
     const ImVec2 picture{all.x - panel_size, std::max(all.y - status_size - dock_size, 1.0F)};
     keys();
     begin_editor_pass(desk_);
     picture_area(desk_, {0, 0}, picture);
-    if (desk_.dock) {
+    if (has_dock) {
         dock(desk_, {0, picture.y}, {picture.x, dock_size});
     }
     status_line(desk_, {0, all.y - status_size}, {picture.x, status_size});

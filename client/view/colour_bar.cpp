@@ -70,14 +70,17 @@ void colour_bar(Desk& desk, ImVec2 from, ImVec2 to) {
     const auto& pins = desk.wish.tf.colour_pins;
     // A map has many pins, of which each is small until one is taken.
     const bool is_map = !view::colour_map_name(pins).empty();
+    const bool has_room = (to.x - from.x) / static_cast<float>(pins.size()) > desk.px(14);
     for (std::size_t i = 0; i < pins.size(); ++i) {
         const bool selected = desk.editor.colour == i;
         const float r = selected ? mark * 1.3F : is_map ? mark * 0.6F : mark;
         const float x = bar.x(pins[i].at);
-        list.AddTriangleFilled({x - r, to.y + 2 * r}, {x + r, to.y + 2 * r}, {x, to.y - desk.px(1)},
-                               selected ? IM_COL32(255, 196, 92, 255)
-                               : is_map ? theme::vacant
-                                        : theme::text);
+        if (selected || !is_map || has_room) {
+            list.AddTriangleFilled({x - r, to.y + 2 * r}, {x + r, to.y + 2 * r}, {x, to.y - desk.px(1)},
+                                   selected ? IM_COL32(255, 196, 92, 255)
+                                   : is_map ? theme::vacant
+                                            : theme::text);
+        }
         if (pins.size() <= 40) {
             desk.controls.note("editor/colour/" + std::to_string(i), {x, to.y - desk.px(3)});
         }

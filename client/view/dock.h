@@ -6,7 +6,9 @@
 
 namespace shearwater::ui {
 
-constexpr float dock_height = 224;  // nominal pixels
+// Nominal pixels: the least width, and the height. A window of less than that, or less than twice as high,
+// has none.
+constexpr float dock_width = 560, dock_height = 224;
 
 void dock(Desk& desk, ImVec2 from, ImVec2 size);
 
