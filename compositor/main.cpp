@@ -1,5 +1,6 @@
 // shearwater-compositor: a junction of the tree. Merges its children's windows in visibility order.
 
+#include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
 
 #include <boost/asio/post.hpp>

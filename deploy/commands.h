@@ -2,8 +2,9 @@
 // The subcommands of `shearwater`: each adds its options to the command line and, when it was the one
 // typed, runs and gives the exit status.
 
-#include <CLI/CLI.hpp>
 #include <functional>
+
+#include "common/options/cli_fwd.h"
 
 namespace shearwater::deploy {
 

@@ -1,5 +1,6 @@
 // shearwater: the one command a person types.
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <tuple>
 #include <utility>

@@ -1,4 +1,5 @@
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <vector>
@@ -127,21 +128,21 @@ class Movie {
         if (!size) {
             return size.error();
         }
-        const Script script{
-            .pictures = static_cast<int>(frames.size()),
-            .in_flight = 2,
-            .shot = [&](int index, const view::Lattice& lattice) -> base::Result<flight::Shot> {
-                auto shot = flight::shot_at(path_, time_of(frames[static_cast<std::size_t>(index)]), lattice);
-                if (const auto valid = flags_.view.check(shot.camera); !valid) {
-                    return valid.error();
-                }
-                return shot;
-            },
-            .keep =
-                [&](int index, const image::Image<image::Rgba8>& picture) {
-                    ++done_;
-                    return folder_.write(frames[static_cast<std::size_t>(index)], picture);
-                }};
+        const Script script{.pictures = static_cast<int>(frames.size()),
+                            .in_flight = 2,
+                            .shot = [&](int index, const KnownCube& known) -> base::Result<flight::Shot> {
+                                auto shot = flight::shot_at(
+                                    path_, time_of(frames[static_cast<std::size_t>(index)]), known.lattice);
+                                if (const auto valid = flags_.view.check(shot.camera); !valid) {
+                                    return valid.error();
+                                }
+                                return shot;
+                            },
+                            .keep =
+                                [&](int index, const image::Image<image::Rgba8>& picture) {
+                                    ++done_;
+                                    return folder_.write(frames[static_cast<std::size_t>(index)], picture);
+                                }};
         const auto progress = [&](double) { bar_.show(static_cast<double>(done_) / path_.frames()); };
         TargetOptions target = flags_.target;
         if (!path_.cubes.empty()) {

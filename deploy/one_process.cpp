@@ -29,13 +29,22 @@ class Clock {
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-base::Result<volume::Mapping> mapping_for(cube::Cube& opened, const options::CubeOptions& cube,
-                                          base::Workers& workers, const volume::Progress& progress) {
+struct Values {
+    volume::Mapping mapping;
+    std::shared_ptr<const volume::Summary> summary;  // where they are counted
+};
+
+// Counts them where the limits come from that, or what is drawn does.
+base::Result<Values> values_of(cube::Cube& opened, const options::CubeOptions& cube, view::Unit unit,
+                               base::Workers& workers, const volume::Progress& progress) {
     volume::Mapping mapping{.stretch = cube.stretch_value(), .bits = cube.bits};
-    if (cube.range.size() == 2) {
+    const bool has_range = cube.range.size() == 2;
+    if (has_range) {
         mapping.lo = cube.range[0];
         mapping.hi = cube.range[1];
-        return mapping;
+    }
+    if (has_range && (unit == view::Unit::stretched || unit == view::Unit::value)) {
+        return Values{mapping, nullptr};
     }
     const auto& n = opened.info.n;
     const auto half = [&](double fraction) { progress(fraction / 2); };
@@ -43,10 +52,12 @@ base::Result<volume::Mapping> mapping_for(cube::Cube& opened, const options::Cub
     if (!histogram) {
         return histogram.error();
     }
-    const volume::Limits limits = volume::percentile_limits(*histogram, cube.percentile);
-    mapping.lo = limits.lo;
-    mapping.hi = limits.hi;
-    return mapping;
+    if (!has_range) {
+        const volume::Limits limits = volume::percentile_limits(*histogram, cube.percentile);
+        mapping.lo = limits.lo;
+        mapping.hi = limits.hi;
+    }
+    return Values{mapping, std::make_shared<const volume::Summary>(volume::summarise(*histogram, mapping))};
 }
 
 std::vector<view::Camera> eyes_of(const view::Camera& camera, const StereoOptions& stereo) {
@@ -80,22 +91,26 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     }
     const view::Lattice lattice{.n = opened->info.n, .spacing = cube.spacing_value()};
     const auto size = view.image_size();
-    auto shot = script.shot(0, lattice);
     const auto crop = view.crop_of(lattice);
-    if (!size || !shot || !crop) {
-        return !size ? size.error() : !shot ? shot.error() : crop.error();
+    if (!size || !crop) {
+        return size ? crop.error() : size.error();
     }
     double load = clock.lap();
     const double share = script.pictures > 1 ? 0.5 : 1;  // of the progress, for loading
     const auto loading = [&](double fraction) { progress(share * fraction); };
-    const auto mapping = mapping_for(*opened, cube, workers, loading);
-    if (!mapping) {
-        return mapping.error();
+    const auto values = values_of(*opened, cube, script.unit, workers, loading);
+    if (!values) {
+        return values.error();
+    }
+    const KnownCube known{lattice, view::ValueScale(values->mapping, values->summary)};
+    auto shot = script.shot(0, known);
+    if (!shot) {
+        return shot.error();
     }
     double preprocess = clock.lap();
     const auto second_half = [&](double fraction) { loading(0.5 + fraction / 2); };
     const auto volume = shear::BrickVolume::load(*opened->source, volume::whole(lattice.n), lattice.n,
-                                                 *mapping, workers, second_half);
+                                                 values->mapping, workers, second_half);
     if (!volume) {
         return volume.error();
     }
@@ -111,7 +126,7 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     }
     for (int i = 0; i < script.pictures; ++i) {
         if (i > 0) {
-            shot = script.shot(i, lattice);
+            shot = script.shot(i, known);
             if (!shot) {
                 return shot.error();
             }

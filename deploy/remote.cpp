@@ -1,5 +1,6 @@
 #include "deploy/remote.h"
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <sstream>
 

@@ -2,10 +2,11 @@
 // Cubes on other machines, reached by ssh: `shearwater serve --stdio` is started there and speaks with us
 // through ssh's standard streams. Nothing listens but that machine's own tree, on its loopback.
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "common/options/cli_fwd.h"
 
 namespace shearwater::deploy {
 

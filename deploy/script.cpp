@@ -2,18 +2,22 @@
 
 namespace shearwater::deploy {
 
-Script script_of(const ViewOptions& view, const view::TransferFunction& tf, int pictures, double turn,
+Script script_of(const ViewOptions& view, const view::AnchoredFunction& function, int pictures, double turn,
                  int in_flight) {
-    const auto shot = [=](int index, const view::Lattice& lattice) -> base::Result<flight::Shot> {
+    const auto shot = [=](int index, const KnownCube& cube) -> base::Result<flight::Shot> {
         ViewOptions turned = view;
         turned.orbit.azimuth += index * turn;
-        const auto camera = turned.camera(lattice);
+        const auto camera = turned.camera(cube.lattice);
         if (!camera) {
             return camera.error();
         }
-        return flight::Shot{*camera, tf};
+        auto tf = view::on_scale(function, cube.scale ? &*cube.scale : nullptr);
+        if (!tf) {
+            return tf.error();
+        }
+        return flight::Shot{*camera, *std::move(tf)};
     };
-    return {.pictures = pictures, .in_flight = in_flight, .shot = shot, .keep = {}};
+    return {.pictures = pictures, .in_flight = in_flight, .unit = function.unit, .shot = shot, .keep = {}};
 }
 
 }  // namespace shearwater::deploy

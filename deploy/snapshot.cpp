@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -36,14 +37,14 @@ base::Status write_json(const std::string& path, const Picture& picture) {
     return {};
 }
 
-base::Result<Picture> draw_by_tree(const Flags& flags, const view::TransferFunction& tf,
+base::Result<Picture> draw_by_tree(const Flags& flags, const view::AnchoredFunction& function,
                                    const view::ImageSize& size) {
     auto target = open_target(flags.target, "warn");
     if (!target) {
         return target.error();
     }
     ProgressBar bar(flags.repeat > 1 ? "loading and drawing" : "loading");
-    return draw_over_links(program, *target, flags.view, size, script_of(flags.view, tf, flags.repeat),
+    return draw_over_links(program, *target, flags.view, size, script_of(flags.view, function, flags.repeat),
                            [&](double fraction) { bar.show(fraction); });
 }
 
@@ -54,9 +55,9 @@ base::Status snapshot(Flags& flags) {
     if (const auto opened = flags.view.open_session(); !opened) {
         return opened;
     }
-    const auto tf = flags.view.drawing.transfer_function();
-    if (!tf) {
-        return tf.error();
+    const auto function = flags.view.drawing.transfer_function();
+    if (!function) {
+        return function.error();
     }
     const auto size = flags.view.image_size();
     if (!size) {
@@ -65,10 +66,11 @@ base::Status snapshot(Flags& flags) {
     base::Result<Picture> picture = Picture{};
     if (flags.target.connect.empty() && flags.target.tree.one_process()) {
         ProgressBar bar("loading");
-        picture = draw_in_process(flags.target.cube, flags.view, script_of(flags.view, *tf, flags.repeat),
-                                  flags.target.threads, [&](double fraction) { bar.show(fraction); });
+        picture =
+            draw_in_process(flags.target.cube, flags.view, script_of(flags.view, *function, flags.repeat),
+                            flags.target.threads, [&](double fraction) { bar.show(fraction); });
     } else {
-        picture = draw_by_tree(flags, *tf, *size);
+        picture = draw_by_tree(flags, *function, *size);
     }
     if (!picture) {
         return picture.error();

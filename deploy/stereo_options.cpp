@@ -1,6 +1,7 @@
 #include "deploy/stereo_options.h"
 
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 namespace shearwater::deploy {
 

@@ -1,12 +1,12 @@
 #pragma once
 // The options of a pair of pictures: how the eyes stand, and how their pictures are shown.
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/image/stereo_modes.h"
+#include "common/options/cli_fwd.h"
 #include "common/view/stereo.h"
 
 namespace shearwater::deploy {

@@ -55,20 +55,45 @@ std::vector<wire::NetEffect> Still::handle(const wire::NetEvent& event, wire::Ti
         if (const auto* state = std::get_if<pb::TreeState>(&body)) {
             on_state(*state);
         } else if (const auto* cube = std::get_if<pb::CubeDescription>(&body)) {
-            const auto lattice = wire::lattice_from(cube->lattice());
-            if (!lattice) {
-                fail(base::Code::corrupt, lattice.error().text);
-            } else if (!lattice_) {
-                lattice_ = *lattice;
-                ask(now, effects);
-            }
+            on_cube(*cube, now, effects);
         } else if (std::holds_alternative<pb::Frame>(body)) {
             on_frame(received->message, now, effects);
         }
-    } else if (std::holds_alternative<wire::Tick>(event) && !times_.empty()) {
-        ask_ahead(now, effects);
+    } else if (std::holds_alternative<wire::Tick>(event)) {
+        ready_ = progress_ < 1 ? std::nullopt : std::optional(ready_.value_or(now));
+        if (!known_ && ready_ && now - *ready_ > patience) {
+            fail(base::Code::timed_out, "the server does not tell what values the cube has");
+        } else if (!times_.empty()) {
+            ask_ahead(now, effects);
+        }
     }
     return effects;
+}
+
+// What is told of a sketch is about to change, unless nothing depends on it.
+void Still::on_cube(const pb::CubeDescription& cube, wire::Time now, std::vector<wire::NetEffect>& effects) {
+    if (known_) {
+        return;
+    }
+    const auto lattice = wire::lattice_from(cube.lattice());
+    if (!lattice) {
+        return fail(base::Code::corrupt, lattice.error().text);
+    }
+    std::optional<view::ValueScale> scale;
+    if (script_.unit != view::Unit::stretched) {
+        const bool by_values = script_.unit != view::Unit::value;
+        if (cube.provisional() || (by_values && (!cube.has_values() || cube.values().provisional()))) {
+            return;
+        }
+        const auto mapping = wire::mapping_from(cube.mapping());
+        const auto values = wire::summary_from(cube.values());
+        if (!mapping || !values) {
+            return fail(base::Code::corrupt, mapping ? values.error().text : mapping.error().text);
+        }
+        scale.emplace(*mapping, std::make_shared<const volume::Summary>(*values));
+    }
+    known_ = KnownCube{*lattice, std::move(scale)};
+    ask(now, effects);
 }
 
 void Still::on_state(const pb::TreeState& state) {
@@ -93,8 +118,8 @@ void Still::on_state(const pb::TreeState& state) {
 void Still::ask(wire::Time now, std::vector<wire::NetEffect>& effects) {
     const int picture = to_ask_.front();
     to_ask_.pop_front();
-    auto shot = script_.shot(picture, *lattice_);
-    const auto crop = options_.crop_of(*lattice_);
+    auto shot = script_.shot(picture, *known_);
+    const auto crop = options_.crop_of(known_->lattice);
     if (!shot || !crop) {
         failed_ = shot ? crop.error() : shot.error();
         return;

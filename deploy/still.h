@@ -30,7 +30,12 @@ class Still {
     double progress() const;
 
   private:
+    // For values that a function goes by, once all is loaded.
+    static constexpr std::chrono::seconds patience{20};
+
     void on_state(const wire::pb::TreeState& state);
+    void on_cube(const wire::pb::CubeDescription& cube, wire::Time now,
+                 std::vector<wire::NetEffect>& effects);
     void on_frame(const wire::Message& message, wire::Time now, std::vector<wire::NetEffect>& effects);
     void ask(wire::Time now, std::vector<wire::NetEffect>& effects);
     void ask_ahead(wire::Time now, std::vector<wire::NetEffect>& effects);
@@ -39,9 +44,10 @@ class Still {
     wire::Route server_;
     ViewOptions options_;
     Script script_;
-    wire::View view_;         // the newest asked for
-    std::deque<int> to_ask_;  // pictures
-    std::optional<view::Lattice> lattice_;
+    wire::View view_;                  // the newest asked for
+    std::deque<int> to_ask_;           // pictures
+    std::optional<KnownCube> known_;   // once there is what is needed to ask
+    std::optional<wire::Time> ready_;  // since when all is loaded
     std::vector<Seconds> times_;
     Picture picture_;
     wire::Time started_{};

@@ -1,5 +1,7 @@
 #include "deploy/target.h"
 
+#include <CLI/CLI.hpp>
+
 #include "deploy/session_secret.h"
 #include "protocol/daemon/runtime.h"
 

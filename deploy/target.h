@@ -2,10 +2,10 @@
 // What a picture or a window is of: a cube on a tree of our own, here or on another machine, or whatever a
 // running server serves.
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
+#include "common/options/cli_fwd.h"
 #include "common/options/cube_options.h"
 #include "common/options/tree_options.h"
 #include "deploy/local_tree.h"

@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <optional>
 
 #include "common/options/drawing_options.h"

@@ -1,5 +1,6 @@
 #include "deploy/view_options.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -80,6 +81,15 @@ base::Status ViewOptions::open_session() {
     }
     viewpoint_ = scene->viewpoint;
     drawing.take(*scene);
+    if (scene->crop && crop.empty()) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            crop.insert(crop.end(), {scene->crop->lo[axis], scene->crop->hi[axis]});
+        }
+    }
+    if (scene->stereo && !stereo.mode()) {
+        stereo.shown = image::stereo_mode_names[static_cast<std::size_t>(scene->stereo->mode)];
+        stereo.eyes = scene->stereo->eyes;
+    }
     if (size_option_ == nullptr || size_option_->count() == 0) {
         size = std::to_string(scene->size.width) + "x" + std::to_string(scene->size.height);
     }

@@ -2,12 +2,12 @@
 // The options of a still picture: camera, eyes, size, what is shown of the cube, quality, and how it is
 // drawn.
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/base/result.h"
+#include "common/options/cli_fwd.h"
 #include "common/options/drawing_options.h"
 #include "common/view/viewpoint.h"
 #include "deploy/stereo_options.h"

@@ -1,5 +1,6 @@
 // shearwater-renderer: a leaf of the tree. Holds a share of the cube and renders windows of it.
 
+#include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
 
 #include "protocol/daemon/options.h"

@@ -1,5 +1,6 @@
 // shearwater-server: the head of the tree. Gives daemons their places, clients their pictures.
 
+#include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
 
 #include <cstdio>

@@ -76,12 +76,22 @@ wire::Parsed<Cube> cube_from(const pb::CubeDescription& description) {
     if (!mapping) {
         return mapping.error();
     }
-    return Cube{base::printable(description.name()),
-                base::printable(description.object()),
-                base::printable(description.unit(), 40),
-                *lattice,
-                *mapping,
-                description.provisional()};
+    Cube cube{.name = base::printable(description.name()),
+              .object = base::printable(description.object()),
+              .unit = base::printable(description.unit(), 40),
+              .lattice = *lattice,
+              .mapping = *mapping,
+              .provisional = description.provisional(),
+              .values = nullptr};
+    if (description.has_values()) {
+        auto values = wire::summary_from(description.values());
+        if (!values) {
+            return values.error();
+        }
+        cube.values = std::make_shared<const volume::Summary>(*std::move(values));
+        cube.provisional_values = description.values().provisional();
+    }
+    return cube;
 }
 
 wire::Parsed<Tree> tree_from(const pb::TreeState& state) {

@@ -29,12 +29,13 @@ std::string prefix_for(const Cube& cube) {
 }  // namespace
 
 Remembered remembered(const Wish& wish) {
-    return {wish.viewpoint, wish.tf};
+    return {wish.viewpoint, wish.tf, wish.crop};
 }
 
 void restore(const Remembered& state, Wish& wish) {
     wish.viewpoint = state.viewpoint;
     wish.tf = state.tf;
+    wish.crop = state.crop;
 }
 
 scene::Scene scene_of(const Wish& wish, const Effort& effort, const std::string& cube) {
@@ -46,7 +47,8 @@ scene::Scene scene_of(const Wish& wish, const Effort& effort, const std::string&
             .classify = wish.classify,
             .culling = wish.culling,
             .quality = effort.fixed,
-            .target_rate = effort.target_rate};
+            .target_rate = effort.target_rate,
+            .crop = wish.crop};
 }
 
 void apply(const scene::Scene& scene, Wish& wish, Effort& effort) {
@@ -55,6 +57,7 @@ void apply(const scene::Scene& scene, Wish& wish, Effort& effort) {
     wish.level_of_detail = scene.level_of_detail;
     wish.classify = scene.classify;
     wish.culling = scene.culling;
+    wish.crop = scene.crop;
     effort.fixed = scene.quality;
     effort.target_rate = scene.target_rate;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "client/model/crop.h"
 #include "client/model/session.h"
 #include "common/scene/scene.h"
 
@@ -16,12 +17,14 @@ namespace shearwater::model {
 struct Remembered {
     Viewpoint viewpoint;
     view::TransferFunction tf;
+    Crop crop;
     bool operator==(const Remembered&) const = default;
 };
 Remembered remembered(const Wish& wish);
 void restore(const Remembered& state, Wish& wish);
 
-// What a file keeps; `cube` is its name. A picture's size is that of the window, and stays so.
+// What a file keeps; `cube` is its name. A picture's size is that of the window, and stays so; how a pair is
+// shown is the window's to say.
 scene::Scene scene_of(const Wish& wish, const Effort& effort, const std::string& cube);
 void apply(const scene::Scene& scene, Wish& wish, Effort& effort);
 

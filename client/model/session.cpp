@@ -46,6 +46,19 @@ std::string words_for(const wire::LinkDown& down, const wire::Route& server) {
     return "The link ended: " + why + ".";
 }
 
+// A peer's figures are its own affair: what is no time counts as none.
+Stages stages_of(const pb::FrameStats& stats, Seconds latency) {
+    const auto time = [](double seconds) {
+        constexpr double longest = 3600;
+        return seconds > 0 ? std::min(seconds, longest) : 0.0;
+    };
+    return {.render = time(stats.leaves().render_seconds()),
+            .composite = time(stats.leaves().composite_seconds()),
+            .warp = time(stats.warp_seconds()),
+            .code = time(stats.encode_seconds()),
+            .link = time(latency.count() - time(stats.total_seconds()))};
+}
+
 }  // namespace
 
 void Session::start(wire::Time now) {
@@ -188,7 +201,6 @@ void Session::on_frame(const wire::Received& received, wire::Time now) {
         return give_up(eyes.error(), now);
     }
     const Seconds latency = now - sent->at;
-    const double server_seconds = std::max(0.0, frame.stats().total_seconds());
     if (sent->revision > answered_ && sent->tree_ready) {
         meter_.count(now, latency, message.payload_size());
         pace_.count(now, sent->at, sent->quality, frame.stats().leaves().render_seconds());
@@ -206,7 +218,8 @@ void Session::on_frame(const wire::Received& received, wire::Time now) {
         .missing = std::move(*missing),
         .sketch = frame.sketch(),
         .bytes = message.payload_size(),
-        .server_seconds = server_seconds,
+        .stages = stages_of(frame.stats(), latency),
+        .samples = frame.stats().leaves().samples(),
         .opaque_bricks = leaves.bricks_total() - std::min(leaves.bricks_total(), leaves.bricks_empty()),
         .culled_bricks = leaves.bricks_culled()};
     picture_ = Picture{sent->revision, sent->quality, frame_->missing.empty(), std::move(eyes->front()), {}};
@@ -343,6 +356,7 @@ Status Session::status(wire::Time now) const {
     status.tree = tree_;
     status.frame = frame_;
     status.rates = meter_.rates(now);
+    status.link_speed = link_gauge_.speed();
     status.refining = connection_ == Connection::connected && described_ && wish_ && !is_moving(now) &&
                       (quality_ != pace_.best() || small_ || !has_come());
     return status;

@@ -1,13 +1,16 @@
 #pragma once
 // What the session knows, for the panel to show.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/image/image.h"
 #include "common/view/factorisation.h"
+#include "common/view/value_scale.h"
 #include "common/volume/mapping.h"
+#include "common/volume/summary.h"
 #include "protocol/wire/shearwater.pb.h"
 
 namespace shearwater::model {
@@ -16,8 +19,11 @@ struct Cube {
     std::string name, object, unit;  // printable
     view::Lattice lattice;
     volume::Mapping mapping;
-    bool provisional = false;  // its limits, which are those of a sketch
-    bool operator==(const Cube&) const = default;
+    bool provisional = false;                       // its limits, which are those of a sketch
+    std::shared_ptr<const volume::Summary> values;  // null until any are counted
+    bool provisional_values = false;                // they are those of a sketch
+
+    view::ValueScale scale() const { return view::ValueScale(mapping, values); }
 };
 
 struct Node {
@@ -48,6 +54,16 @@ struct Missing {
     volume::Box box;
 };
 
+// Where a frame's time went (DVR Fig. 8), seconds. Stages overlap, so that their sum may be more than it
+// took.
+struct Stages {
+    double render = 0;     // the slowest renderer's
+    double composite = 0;  // coding windows and merging them, on the slowest path
+    double warp = 0;
+    double code = 0;
+    double link = 0;  // from the server and back, and whatever the view waited for there
+};
+
 // The last frame, without its pixels.
 struct FrameNote {
     std::uint64_t revision = 0;
@@ -56,7 +72,8 @@ struct FrameNote {
     std::vector<Missing> missing;  // empty: the picture is whole
     bool sketch = false;           // of a sketch of the cube, which is loading: its picture will follow
     std::size_t bytes = 0;         // as it travelled
-    double server_seconds = 0;
+    Stages stages;
+    std::uint64_t samples = 0;
     // Bricks with opacity, and of those how many are left out since others hide them.
     std::uint64_t opaque_bricks = 0, culled_bricks = 0;
 };
@@ -84,7 +101,8 @@ struct Status {
     Tree tree;
     std::optional<FrameNote> frame;
     Rates rates;
-    bool refining = false;  // the view rests and a better picture of it is to come
+    std::optional<double> link_speed;  // bytes a second
+    bool refining = false;             // the view rests and a better picture of it is to come
 
     // "first look, 43 % loaded" while the last picture is of a sketch; else empty.
     std::string first_look() const;

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "client/model/look.h"
+#include "client/model/colours.h"
+#include "client/view/dock.h"
+#include "client/view/function_tab.h"
+#include "client/view/movie_tab.h"
 #include "client/view/navigation.h"
 #include "client/view/panel.h"
 #include "client/view/picture_area.h"
@@ -13,38 +16,15 @@
 
 namespace shearwater::ui {
 
-namespace {
-
-// A change of colour map by `step` places in the menu, keeping the direction.
-void step_map(view::TransferFunction& tf, int step) {
-    const std::vector<std::string> names = view::colour_map_names();
-    const std::string current = model::map_name_of(tf.colour_pins);
-    const bool reversed = current.ends_with("-r");
-    const std::string plain = reversed ? current.substr(0, current.size() - 2) : current;
-    const auto found = std::find(names.begin(), names.end(), plain);
-    const int count = static_cast<int>(names.size());
-    const int from = found == names.end() ? -step : static_cast<int>(found - names.begin());
-    const std::string& to = names[static_cast<std::size_t>((from + step + count) % count)];
-    tf.colour_pins = view::colour_map(to + (reversed ? "-r" : "")).value();
-}
-
-void reverse_map(view::TransferFunction& tf) {
-    const std::string name = model::map_name_of(tf.colour_pins);
-    if (!name.empty()) {
-        const std::string to = name.ends_with("-r") ? name.substr(0, name.size() - 2) : name + "-r";
-        tf.colour_pins = view::colour_map(to).value();
-    }
-}
-
-}  // namespace
-
 App::App(Window& window, Network& network, AppOptions options)
     : window_(window),
       network_(network),
       options_(std::move(options)),
-      desk_(window.fonts(), window.scale()),
-      files_(Window::wake) {
-    desk_.wish.tf = options_.tf;
+      presets_(PresetFolder::of_user(), Window::wake),
+      flights_(Window::wake),
+      desk_(window.fonts(), window.scale(), presets_, flights_),
+      files_(Window::wake),
+      anchoring_(options_.scene ? view::AnchoredFunction{.tf = options_.scene->tf} : options_.tf) {
     desk_.wish.level_of_detail = options_.level_of_detail;
     desk_.wish.classify = options_.classify;
     desk_.wish.culling = options_.culling;
@@ -78,6 +58,9 @@ base::Status App::run() {
         if (!options_.screenshot.empty() && desk_.status.connection == model::Connection::refused) {
             return base::error(base::Code::refused, "take the screenshot", desk_.status.words);
         }
+        if (!options_.screenshot.empty() && fault_told_) {
+            return base::error(base::Code::unsupported, "take the screenshot", anchoring_.fault());
+        }
     }
     return {};
 }
@@ -85,7 +68,8 @@ base::Status App::run() {
 // Redraws at once while something goes on, rarely when nothing does.
 double App::patience() const {
     const bool waits = desk_.picture.empty() || !options_.screenshot.empty();
-    const bool glides = desk_.transition.under_way() || (desk_.flying && desk_.dragging);
+    const bool glides =
+        desk_.transition.under_way() || desk_.timeline.playing() || (desk_.flying && desk_.dragging);
     return glides ? 0.01 : waits || ImGui::GetTime() < active_until_ ? 0.03 : 0.25;
 }
 
@@ -105,6 +89,14 @@ void App::collect() {
             }
             known_lattice_ = desk_.lattice();
         }
+    }
+    if (auto tf = anchoring_.settle(desk_.status, desk_.wish.tf, std::chrono::steady_clock::now())) {
+        desk_.wish.tf = *std::move(tf);
+    }
+    if (!anchoring_.fault().empty() && !fault_told_) {
+        fault_told_ = true;
+        desk_.editor.message = anchoring_.fault();
+        desk_.editor.is_fault = true;
     }
     if (mail.picture) {
         desk_.picture_revision = mail.picture->revision;
@@ -139,11 +131,19 @@ void App::widgets() {
     const ImVec2 all = ImGui::GetIO().DisplaySize;
     const float panel_size = desk_.panel ? std::min(desk_.px(panel_width), all.x / 2) : 0;
     const float status_size = desk_.px(status_height);
-    const ImVec2 picture{all.x - panel_size, std::max(all.y - status_size, 1.0F)};
+    const bool has_dock =
+        desk_.dock && all.x - panel_size >= desk_.px(dock_width) && all.y >= 2 * desk_.px(dock_height);
+    const float dock_size = has_dock ? desk_.px(dock_height) : 0;
+    const ImVec2 picture{all.x - panel_size, std::max(all.y - status_size - dock_size, 1.0F)};
     keys();
     navigate_on(desk_, window_);
+    play_on(desk_);
+    begin_editor_pass(desk_);
     picture_area(desk_, {0, 0}, picture);
-    status_line(desk_, {0, picture.y}, {picture.x, status_size});
+    if (has_dock) {
+        dock(desk_, {0, picture.y}, {picture.x, dock_size});
+    }
+    status_line(desk_, {0, all.y - status_size}, {picture.x, status_size});
     if (desk_.panel) {
         panel(desk_, {picture.x, 0}, {panel_size, all.y});
     }
@@ -170,14 +170,24 @@ void App::on_key(const KeyPress& press) {
         case GLFW_KEY_TAB:
             desk_.panel = !desk_.panel;
             break;
+        case GLFW_KEY_E:
+            desk_.dock = !desk_.dock;
+            break;
+        case GLFW_KEY_DELETE:
+        case GLFW_KEY_BACKSPACE:
+            delete_selected(desk_);
+            break;
         case GLFW_KEY_ESCAPE:
             desk_.escape = true;
             break;
+        case GLFW_KEY_B:
+            desk_.boxed = !desk_.boxed;
+            break;
         case GLFW_KEY_C:
-            step_map(desk_.wish.tf, press.shift ? -1 : 1);
+            model::step_map(desk_.wish.tf, press.shift ? -1 : 1);
             break;
         case GLFW_KEY_I:
-            reverse_map(desk_.wish.tf);
+            model::reverse_colours(desk_.wish.tf);
             break;
         default:
             break;
@@ -268,7 +278,7 @@ bool App::is_settled() const {
     const model::Status& status = desk_.status;
     const view::ImageSize wanted =
         desk_.shown ? image::composed_size(desk_.wish.size, *desk_.shown) : desk_.wish.size;
-    return status.connection == model::Connection::connected && status.frame &&
+    return !anchoring_.pending() && status.connection == model::Connection::connected && status.frame &&
            status.frame->missing.empty() && !status.frame->sketch && desk_.picture_revision == status.sent &&
            desk_.picture_quality == desk_.best_quality() && desk_.picture.width() == wanted.width &&
            desk_.picture.height() == wanted.height;

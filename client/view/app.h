@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "client/model/anchoring.h"
 #include "client/view/desk.h"
 #include "client/view/files.h"
 #include "client/view/network.h"
@@ -11,7 +12,7 @@
 namespace shearwater::ui {
 
 struct AppOptions {
-    view::TransferFunction tf = view::default_transfer_function();
+    view::AnchoredFunction tf{.tf = view::default_transfer_function()};
     std::optional<bool> level_of_detail;
     view::Classify classify = view::Classify::post;
     culling::Settings culling;
@@ -45,14 +46,18 @@ class App {
     Window& window_;
     Network& network_;
     const AppOptions options_;
+    PresetShelf presets_;
+    FlightFiles flights_;
     Desk desk_;
     Files files_;
     model::Wish picture_wish_;  // of the last picture
+    model::Anchoring anchoring_;
     model::Wish sent_;
     model::Effort sent_effort_;
     std::optional<view::Lattice> known_lattice_;
     double active_until_ = 0;  // seconds of ImGui's clock
     int settled_passes_ = 0;
+    bool fault_told_ = false;  // of the function that the window was opened with
 };
 
 }  // namespace shearwater::ui

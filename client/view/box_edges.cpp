@@ -65,4 +65,16 @@ void draw_box_edges(const Desk& desk, const EyeArea& area, const view::Camera& c
     list.PopClipRect();
 }
 
+void draw_missing(const Desk& desk, const EyeArea& area, const view::Camera& camera) {
+    if (!desk.status.frame) {
+        return;
+    }
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.PushClipRect(area.from, {area.from.x + area.size.x, area.from.y + area.size.y}, true);
+    for (const model::Missing& missing : desk.status.frame->missing) {
+        draw_box(desk, list, area, camera, missing.box, theme::bad, desk.px(1.5F));
+    }
+    list.PopClipRect();
+}
+
 }  // namespace shearwater::ui

@@ -9,9 +9,13 @@
 #include "client/model/history.h"
 #include "client/model/keeping.h"
 #include "client/model/session.h"
+#include "client/model/timeline.h"
 #include "client/model/transition.h"
 #include "client/view/controls.h"
+#include "client/view/editor_state.h"
 #include "client/view/eye_areas.h"
+#include "client/view/flight_files.h"
+#include "client/view/preset_shelf.h"
 #include "client/view/texture.h"
 #include "client/view/theme.h"
 
@@ -30,11 +34,19 @@ struct FileWishes {
     bool restore = false, dismiss = false;  // what was left behind
 };
 
+struct MovieState {
+    std::array<char, 512> file{};  // the flight path's, as it is typed
+    bool holds_key = false;        // what is dragged over the strip
+};
+
 struct Desk {
-    Desk(theme::Fonts fonts_in, float scale_in) : fonts(fonts_in), scale(scale_in) {}
+    Desk(theme::Fonts fonts_in, float scale_in, PresetShelf& presets_in, FlightFiles& flights_in)
+        : fonts(fonts_in), scale(scale_in), presets(presets_in), flights(flights_in) {}
 
     const theme::Fonts fonts;
     const float scale;
+    PresetShelf& presets;
+    FlightFiles& flights;
 
     // From the network.
     model::Status status;
@@ -49,6 +61,7 @@ struct Desk {
     Shown shown;                // how a pair of pictures is shown; none: one picture is wanted
     view::StereoSettings eyes;  // of the pair
     bool reshown = false;       // the picture is to be made anew
+    bool boxed = false;         // the cube's edges are over the picture
     bool cropping = false;      // the box's edges and handles are over the picture
     struct CropDrag {
         model::BoxFace face;
@@ -59,8 +72,10 @@ struct Desk {
     bool retry = false;                 // asked to dial now
     bool escape = false;                // the key was pressed in this pass
     bool panel = true;
+    bool dock = true;
+    int dock_tab = 0;
     Controls controls;
-    int ramp_end = -1;  // the ramp's end being dragged: 0, 1, or none
+    EditorState editor;
 
     // Navigation.
     wire::Time now{};  // of this pass
@@ -81,6 +96,10 @@ struct Desk {
     bool reading = false;          // it is shown while the mouse rests
     std::optional<model::Picked> read;
     std::optional<view::Vec2> read_at;  // asked last
+
+    // The movie.
+    model::Timeline timeline;
+    MovieState movie;
 
     // Files.
     std::array<char, 512> file{};  // the session's, as it is typed

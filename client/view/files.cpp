@@ -26,11 +26,18 @@ void Files::begin(Desk& desk, const std::string& path, const scene::Scene& scene
     open(desk, path, scene);
 }
 
-// A picture is not written over by a session: that gets a name beside it.
-void Files::open(Desk& desk, const std::string& path, const scene::Scene& scene) {
+// All of the scene but the size, which is the window's.
+void Files::apply(Desk& desk, const scene::Scene& scene) {
     desk.transition.stop();
     desk.flying = false;
     model::apply(scene, desk.wish, desk.effort);
+    desk.show(scene.stereo ? Shown(scene.stereo->mode) : Shown());
+    desk.eyes = scene.stereo ? scene.stereo->eyes : view::StereoSettings();
+}
+
+// A picture is not written over by a session: that gets a name beside it.
+void Files::open(Desk& desk, const std::string& path, const scene::Scene& scene) {
+    apply(desk, scene);
     name_file(desk, path.ends_with(picture_ending)
                         ? without(path, picture_ending) + std::string(session_ending)
                         : path);
@@ -60,8 +67,8 @@ void Files::take(Desk& desk, const Keeper::Outcome& outcome) {
 
 void Files::attend(Desk& desk, const std::vector<std::string>& dropped,
                    const std::shared_ptr<const model::Picture>& picture, bool settled) {
-    for (const Keeper::Outcome& outcome : keeper_.collect()) {
-        take(desk, outcome);
+    while (const auto outcome = keeper_.collect()) {
+        take(desk, *outcome);
     }
     if (!dropped.empty()) {
         keeper_.open(dropped.back());
@@ -79,7 +86,10 @@ void Files::attend(Desk& desk, const std::vector<std::string>& dropped,
             name_file(desk, model::stem_for(cube) + std::string(session_ending));
         }
     }
-    const scene::Scene scene = model::scene_of(desk.wish, desk.effort, base::printable(cube.name));
+    scene::Scene scene = model::scene_of(desk.wish, desk.effort, base::printable(cube.name));
+    if (desk.shown) {
+        scene.stereo = scene::Pair{desk.eyes, *desk.shown};
+    }
     const std::string file = desk.file.data();
     if ((wishes.save || wishes.open || wishes.picture) && file.empty()) {
         desk.say("Name a file for the session first", true);
@@ -97,8 +107,7 @@ void Files::attend(Desk& desk, const std::vector<std::string>& dropped,
     }
     if (offered_ && (wishes.restore || wishes.dismiss)) {
         if (wishes.restore) {
-            desk.transition.stop();
-            model::apply(*offered_->scene, desk.wish, desk.effort);
+            apply(desk, *offered_->scene);
         }
         keeper_.forget(offered_->path);
         offered_.reset();

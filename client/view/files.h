@@ -23,6 +23,7 @@ class Files {
 
   private:
     void take(Desk& desk, const Keeper::Outcome& outcome);
+    static void apply(Desk& desk, const scene::Scene& scene);
     void open(Desk& desk, const std::string& path, const scene::Scene& scene);
 
     Keeper keeper_;

@@ -39,112 +39,17 @@ bool runs(std::uint64_t process) {
     return fs::exists("/proc/" + std::to_string(process), none);
 }
 
-}  // namespace
-
-Keeper::Keeper(std::function<void()> wake)
-    : wake_(std::move(wake)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
-
-Keeper::~Keeper() {
-    thread_.request_stop();
-    more_.notify_all();
-    thread_.join();
-    if (!autosaved_.empty()) {
-        std::error_code none;
-        fs::remove(autosaved_, none);
-    }
+std::optional<Keeper::Outcome> outcome_of(const base::Status& status, const std::string& done,
+                                          const std::string& path) {
+    return status ? Keeper::Outcome{Kind::said, done, path, {}}
+                  : Keeper::Outcome{Kind::failed, status.error().message(), path, {}};
 }
 
-void Keeper::run(const std::stop_token& stop) {
-    std::unique_lock lock(mutex_);
-    while (more_.wait(lock, stop, [this] { return !jobs_.empty(); })) {
-        const std::function<void()> job = std::move(jobs_.front());
-        jobs_.pop_front();
-        lock.unlock();
-        job();
-        lock.lock();
-    }
-}
-
-void Keeper::later(std::function<void()> job) {
-    const std::lock_guard lock(mutex_);
-    if (jobs_.size() < most_waiting) {
-        jobs_.push_back(std::move(job));
-        more_.notify_all();
-    }
-}
-
-void Keeper::tell(Outcome outcome) {
-    {
-        const std::lock_guard lock(mutex_);
-        outcomes_.push_back(std::move(outcome));
-    }
-    wake_();
-}
-
-std::vector<Keeper::Outcome> Keeper::collect() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(outcomes_, {});
-}
-
-void Keeper::save(const std::string& path, const scene::Scene& scene) {
-    later([this, path, scene] {
-        if (const auto written = scene::write(path, scene)) {
-            tell({Kind::said, "Saved to " + path, path, {}});
-        } else {
-            tell({Kind::failed, written.error().message(), path, {}});
-        }
-    });
-}
-
-void Keeper::open(const std::string& path) {
-    later([this, path] {
-        auto read = scene::read(path);
-        if (read) {
-            tell({Kind::opened, "Opened " + path, path, *std::move(read)});
-        } else {
-            tell({Kind::failed, read.error().message(), path, {}});
-        }
-    });
-}
-
-void Keeper::save_picture(const std::string& path, const scene::Scene& scene,
-                          std::shared_ptr<const model::Picture> picture) {
-    later([this, path, scene, picture = std::move(picture)] {
-        std::error_code none;
-        std::string free = path + ".png";
-        for (int n = 2; fs::exists(fs::symlink_status(free, none)); ++n) {
-            free = path + "-" + std::to_string(n) + ".png";
-        }
-        if (const auto written = scene::write_picture(free, scene, picture->pixels)) {
-            tell({Kind::said, "Saved the picture to " + free, free, {}});
-        } else {
-            tell({Kind::failed, written.error().message(), free, {}});
-        }
-    });
-}
-
-// Where it cannot be kept, it is not, and nobody is told every few seconds.
-void Keeper::autosave(const model::Cube& cube, const scene::Scene& scene) {
-    later([this, cube, scene] {
-        if (const auto folder = state_folder()) {
-            const std::string path = *folder / model::autosave_name(cube, own_process());
-            if (!autosaved_.empty() && autosaved_ != path) {
-                std::error_code none;
-                fs::remove(autosaved_, none);
-            }
-            autosaved_ = scene::write(path, scene) ? path : autosaved_;
-        }
-    });
-}
-
-void Keeper::look_for(const model::Cube& cube) {
-    later([this, cube] { offer_newest(cube); });
-}
-
-void Keeper::offer_newest(const model::Cube& cube) {
+// The others are removed.
+std::optional<Keeper::Outcome> newest_left_behind(const model::Cube& cube) {
     const auto folder = state_folder();
     if (!folder) {
-        return;
+        return std::nullopt;
     }
     std::error_code none;
     std::vector<std::string> names;
@@ -153,7 +58,7 @@ void Keeper::offer_newest(const model::Cube& cube) {
          entry.increment(none)) {
         names.push_back(entry->path().filename().string());
     }
-    std::optional<Outcome> newest;
+    std::optional<Keeper::Outcome> newest;
     fs::file_time_type newest_time;
     for (const std::string& name : model::left_behind(names, cube, runs)) {
         const fs::path path = *folder / name;
@@ -164,20 +69,77 @@ void Keeper::offer_newest(const model::Cube& cube) {
                 fs::remove(newest->path, none);
             }
             newest_time = time;
-            newest = Outcome{Kind::offered, "", path.string(), *std::move(read)};
+            newest = Keeper::Outcome{Kind::offered, "", path.string(), *std::move(read)};
         } else {
             fs::remove(path, none);
         }
     }
-    if (newest) {
-        tell(*std::move(newest));
+    return newest;
+}
+
+}  // namespace
+
+Keeper::~Keeper() {
+    errands_.finish();
+    if (!autosaved_.empty()) {
+        std::error_code none;
+        fs::remove(autosaved_, none);
     }
 }
 
+void Keeper::save(const std::string& path, const scene::Scene& scene) {
+    errands_.ask([path, scene] { return outcome_of(scene::write(path, scene), "Saved to " + path, path); });
+}
+
+void Keeper::open(const std::string& path) {
+    errands_.ask([path] {
+        auto read = scene::read(path);
+        return std::optional(read ? Outcome{Kind::opened, "Opened " + path, path, *std::move(read)}
+                                  : Outcome{Kind::failed, read.error().message(), path, {}});
+    });
+}
+
+void Keeper::save_picture(const std::string& path, const scene::Scene& scene,
+                          std::shared_ptr<const model::Picture> picture) {
+    errands_.ask([path, scene, picture = std::move(picture)] {
+        std::error_code none;
+        std::string free = path + ".png";
+        for (int n = 2; fs::exists(fs::symlink_status(free, none)); ++n) {
+            free = path + "-" + std::to_string(n) + ".png";
+        }
+        const bool is_pair = scene.stereo && !picture->right.empty();
+        const auto written =
+            is_pair ? scene::write_picture(
+                          free, scene, image::composed(picture->pixels, picture->right, scene.stereo->mode))
+                    : scene::write_picture(free, scene, picture->pixels);
+        return outcome_of(written, "Saved the picture to " + free, free);
+    });
+}
+
+// Where it cannot be kept, it is not, and nobody is told every few seconds.
+void Keeper::autosave(const model::Cube& cube, const scene::Scene& scene) {
+    errands_.ask([this, cube, scene]() -> std::optional<Outcome> {
+        if (const auto folder = state_folder()) {
+            const std::string path = *folder / model::autosave_name(cube, own_process());
+            if (!autosaved_.empty() && autosaved_ != path) {
+                std::error_code none;
+                fs::remove(autosaved_, none);
+            }
+            autosaved_ = scene::write(path, scene) ? path : autosaved_;
+        }
+        return std::nullopt;
+    });
+}
+
+void Keeper::look_for(const model::Cube& cube) {
+    errands_.ask([cube] { return newest_left_behind(cube); });
+}
+
 void Keeper::forget(const std::string& path) {
-    later([path] {
+    errands_.ask([path]() -> std::optional<Outcome> {
         std::error_code none;
         fs::remove(path, none);
+        return std::nullopt;
     });
 }
 

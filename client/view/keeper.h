@@ -1,28 +1,22 @@
 #pragma once
 // Reads and writes what the window keeps, on a thread of its own: the window's never waits for a disk.
 
-#include <condition_variable>
-#include <deque>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
-#include <vector>
 
 #include "client/model/keeping.h"
 #include "client/model/status.h"
+#include "client/view/errands.h"
 #include "common/scene/scene.h"
 
 namespace shearwater::ui {
 
 class Keeper {
   public:
-    static constexpr std::size_t most_waiting = 32;  // jobs; more are dropped
-
     // `wake` is called from the keeper's thread when there is something to collect.
-    explicit Keeper(std::function<void()> wake);
+    explicit Keeper(std::function<void()> wake) : errands_(std::move(wake)) {}
     ~Keeper();  // finishes what is asked for, and forgets the autosave: this window has ended well
     Keeper(const Keeper&) = delete;
     Keeper& operator=(const Keeper&) = delete;
@@ -38,28 +32,18 @@ class Keeper {
     void look_for(const model::Cube& cube);
     void forget(const std::string& path);
 
-    // What came of it all since the last call.
+    // What came of one of these, in their order.
     struct Outcome {
         enum class Kind { said, failed, opened, offered } kind;
         std::string words;  // what was done, or what is wrong
         std::string path;
         std::optional<scene::Scene> scene;  // opened or offered
     };
-    std::vector<Outcome> collect();
+    std::optional<Outcome> collect() { return errands_.collect(); }
 
   private:
-    void later(std::function<void()> job);
-    void tell(Outcome outcome);
-    void run(const std::stop_token& stop);
-    void offer_newest(const model::Cube& cube);
-
-    std::function<void()> wake_;
     std::string autosaved_;  // the keeper's thread's
-    std::mutex mutex_;
-    std::condition_variable_any more_;
-    std::deque<std::function<void()>> jobs_;
-    std::vector<Outcome> outcomes_;
-    std::jthread thread_;
+    Errands<Outcome> errands_;
 };
 
 }  // namespace shearwater::ui

@@ -57,6 +57,10 @@ constexpr HelpLine help_lines[] = {
     {"Ctrl Z, Ctrl Y", "undo, redo"},
     {"Ctrl S, Ctrl O", "save, open the session"},
     {"Ctrl P", "save the picture, with its session"},
+    {"B", "hide or show the cube's edges"},
+    {"E", "hide or show the editor"},
+    {"Ctrl drag on the plot", "snap to edges and round values"},
+    {"Delete", "delete the selected pin"},
     {"Tab", "hide or show this panel"},
     {"Ctrl Q", "quit"},
 };

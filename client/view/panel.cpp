@@ -16,7 +16,6 @@ void panel(Desk& desk, ImVec2 from, ImVec2 size) {
     cube_section(desk);
     camera_section(desk);
     session_section(desk);
-    colour_section(desk);
     speed_section(desk);
     crop_section(desk);
     stereo_section(desk);

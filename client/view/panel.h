@@ -1,5 +1,5 @@
 #pragma once
-// The slim panel on the right: link, cube, camera, colours, speed and the tree.
+// The slim panel on the right: link, cube, camera, speed and the tree.
 
 #include "client/view/desk.h"
 

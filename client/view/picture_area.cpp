@@ -57,16 +57,21 @@ void draw_picture(const Desk& desk, ImVec2 from, ImVec2 size) {
                                          {1, 1}, tint);
 }
 
-// What is drawn over the picture where the box is cropped that it shows.
-void crop_over_picture(Desk& desk, const std::vector<EyeArea>& areas) {
-    if (!desk.cropping || !desk.has_cube() || desk.picture.empty()) {
+// What is drawn over each picture that is one eye's alone.
+void over_pictures(Desk& desk, const std::vector<EyeArea>& areas) {
+    if (!desk.has_cube() || desk.picture.empty()) {
         return;
     }
     const view::Camera camera = view::camera(desk.wish.viewpoint, desk.lattice());
     const std::vector<view::Camera> eyes = cameras_of_areas(desk.shown, camera, desk.eyes);
     for (std::size_t n = 0; n < eyes.size(); ++n) {
-        draw_box_edges(desk, areas[n], eyes[n]);
-        crop_handles(desk, areas[n], eyes[n], static_cast<int>(n));
+        draw_missing(desk, areas[n], eyes[n]);
+        if (desk.boxed || desk.cropping) {
+            draw_box_edges(desk, areas[n], eyes[n]);
+        }
+        if (desk.cropping) {
+            crop_handles(desk, areas[n], eyes[n], static_cast<int>(n));
+        }
     }
 }
 
@@ -135,7 +140,7 @@ void picture_area(Desk& desk, ImVec2 from, ImVec2 size) {
     ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::backdrop);
     ImGui::Begin("picture area", nullptr, bare | ImGuiWindowFlags_NoScrollWithMouse);
     draw_picture(desk, from, size);
-    crop_over_picture(desk, areas);
+    over_pictures(desk, areas);
     navigate_by_mouse(desk, areas, from, size);
     draw_reading(desk);
     if (!desk.picture.empty()) {

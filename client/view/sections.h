@@ -11,7 +11,6 @@ void cube_section(Desk& desk);
 void camera_section(Desk& desk);
 // Undo and redo, and the view as a file.
 void session_section(Desk& desk);
-void colour_section(Desk& desk);
 // Quality, culling, and how fast frames come.
 void speed_section(Desk& desk);
 // Which voxels are shown.

@@ -9,6 +9,9 @@ namespace {
 
 constexpr float text_size = 14, bold_size = 16, small_size = 11.5F;
 
+// Latin, Greek, and what is set in text.
+constexpr ImWchar glyphs[] = {0x0020, 0x00FF, 0x0370, 0x03FF, 0x2010, 0x2027, 0};
+
 ImFont* load(const char* name, float size) {
     ImGuiIO& io = ImGui::GetIO();
     for (const char* folder : {"/usr/share/fonts/truetype/dejavu/", "/usr/share/fonts/dejavu-sans-fonts/",
@@ -16,7 +19,7 @@ ImFont* load(const char* name, float size) {
         const std::string path = std::string(folder) + name;
         std::error_code none;
         if (std::filesystem::is_regular_file(path, none)) {
-            return io.Fonts->AddFontFromFileTTF(path.c_str(), size);
+            return io.Fonts->AddFontFromFileTTF(path.c_str(), size, nullptr, glyphs);
         }
     }
     ImFontConfig config;

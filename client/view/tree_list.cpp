@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "client/view/tree_drawing.h"
 #include "client/view/widgets.h"
 #include "protocol/wire/words.h"
 
@@ -12,28 +13,6 @@ namespace shearwater::ui {
 namespace {
 
 namespace pb = wire::pb;
-
-ImU32 colour_of_phase(pb::Phase phase) {
-    switch (phase) {
-        case pb::PHASE_VACANT:
-            return theme::vacant;
-        case pb::PHASE_READY:
-            return theme::good;
-        case pb::PHASE_FAILED:
-            return theme::bad;
-        default:
-            return theme::busy;
-    }
-}
-
-void tooltip(const model::Node& node) {
-    const std::string memory =
-        node.memory_bytes > 0 ? bytes_text(static_cast<double>(node.memory_bytes)) : "-";
-    ImGui::SetTooltip("%s\n%s, place %u\nbox %s\nmemory %s%s%s", node.name.c_str(),
-                      std::string(wire::text_of(node.role)).c_str(), node.place,
-                      volume::to_string(node.box).c_str(), memory.c_str(), node.error.empty() ? "" : "\n",
-                      node.error.c_str());
-}
 
 void node_line(const Desk& desk, const model::Node& node) {
     const float line_start = ImGui::GetCursorScreenPos().y;
@@ -61,7 +40,7 @@ void node_line(const Desk& desk, const model::Node& node) {
     const ImVec2 left_top{ImGui::GetWindowPos().x, line_start};
     if (ImGui::IsWindowHovered() &&
         ImGui::IsMouseHoveringRect(left_top, {left_top.x + right, line_start + ImGui::GetTextLineHeight()})) {
-        tooltip(node);
+        node_tooltip(node);
     }
 }
 

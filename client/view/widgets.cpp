@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 
 namespace shearwater::ui {
 
@@ -102,6 +104,51 @@ int switch_among(Desk& desk, const std::string& name, std::initializer_list<cons
 
 int button_row(Desk& desk, const std::string& name, std::initializer_list<const char*> labels) {
     return switch_among(desk, name, labels, -1);
+}
+
+bool begin_choice(Desk& desk, const char* id, const std::string& shown, const std::string& control,
+                  const char* tip) {
+    if (ImGui::BeginCombo(id, shown.c_str(), ImGuiComboFlags_HeightLargest)) {
+        if (desk.escape) {
+            ImGui::CloseCurrentPopup();
+        }
+        return true;
+    }
+    desk.controls.note(control);
+    if (tip != nullptr && ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("%s", tip);
+    }
+    return false;
+}
+
+bool number_field(Desk& desk, const std::string& id, double& value) {
+    EditorState& editor = desk.editor;
+    const ImGuiID own = ImGui::GetID(id.c_str());
+    std::array<char, 40> text{};
+    if (editor.typing == own) {
+        text = editor.typed;
+    } else {
+        fmt::format_to_n(text.data(), text.size() - 1, "{:.4g}", value == 0 ? 0.0 : value);
+    }
+    ImGui::InputText(id.c_str(), text.data(), text.size(),
+                     ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_CharsNoBlank);
+    if (ImGui::IsItemActive()) {
+        editor.typing = own;
+        editor.typed = text;
+        return false;
+    }
+    if (editor.typing != own) {
+        return false;
+    }
+    editor.typing = 0;
+    const bool edited = ImGui::IsItemDeactivatedAfterEdit();
+    char* end = nullptr;
+    const double number = std::strtod(text.data(), &end);
+    if (!edited || end == text.data() || *end != 0 || !std::isfinite(number)) {
+        return false;
+    }
+    value = number;
+    return true;
 }
 
 void progress_line(const Desk& desk, double fraction, ImU32 colour, float width) {

@@ -25,6 +25,12 @@ void dot(const Desk& desk, ImU32 colour);
 int switch_among(Desk& desk, const std::string& name, std::initializer_list<const char*> labels, int holds);
 // Buttons side by side, noted likewise. The one that was pressed, or -1.
 int button_row(Desk& desk, const std::string& name, std::initializer_list<const char*> labels);
+// A choice that drops down, closed again by the escape key: true while it is open, and ImGui::EndCombo() is
+// to follow its entries. It is noted as `control`.
+bool begin_choice(Desk& desk, const char* id, const std::string& shown, const std::string& control,
+                  const char* tip = nullptr);
+// A number that is typed; true when another one has been, by the enter key or by going elsewhere.
+bool number_field(Desk& desk, const std::string& id, double& value);
 // A share done, thin.
 void progress_line(const Desk& desk, double fraction, ImU32 colour, float width);
 // The pins' colours from left to right.

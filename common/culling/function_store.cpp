@@ -92,7 +92,7 @@ BlockRates FunctionStore::rates(const view::TransferFunction& tf, Footprint foot
                 if (const auto table = find({footprint, member.basis, rung, level})) {
                     Scaled& of = scaled.emplace_back();
                     of.table = table.get();
-                    of.rate = rates_times(member.height);
+                    of.rate = rates_times(member.height * tf.density);
                     members.push_back(member);
                     break;
                 }

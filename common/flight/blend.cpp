@@ -1,6 +1,7 @@
 #include "common/flight/blend.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <type_traits>
@@ -23,7 +24,7 @@ view::Ramp mix(const view::Ramp& a, const view::Ramp& b, double share) {
 
 view::Hat mix(const view::Hat& a, const view::Hat& b, double share) {
     return {mix(a.centre, b.centre, share), mix(a.top, b.top, share), mix(a.base, b.base, share),
-            mix(a.height, b.height, share)};
+            mix(a.height, b.height, share), mix(a.lean, b.lean, share)};
 }
 
 view::Flat mix(const view::Flat& a, const view::Flat& b, double share) {
@@ -113,7 +114,8 @@ view::TransferFunction blend(const view::TransferFunction& a, const view::Transf
     }
     view::TransferFunction made{.opacity_pins = {},
                                 .colour_pins = mix(a, b, share),
-                                .background = mix(a.background, b.background, share)};
+                                .background = mix(a.background, b.background, share),
+                                .density = a.density * std::pow(b.density / a.density, share)};
     if (same_kinds(a, b)) {
         for (std::size_t i = 0; i < a.opacity_pins.size(); ++i) {
             made.opacity_pins.push_back(std::visit(

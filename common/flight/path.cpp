@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
+#include <utility>
 
 #include "common/base/check.h"
 #include "common/flight/blend.h"
@@ -79,36 +79,17 @@ double curve(const std::vector<Key>& keys, const Place& place, const Value& valu
     return a * (1 + 2 * t) * u * u + from * t * u * u + b * t * t * (3 - 2 * t) - to * t * t * u;
 }
 
-double half_angle(double fov) {
-    return std::sin(fov / 2 * std::numbers::pi / 180);
-}
-
-// The distance from which a lattice is wholly seen, where a key leaves it open.
-double distance_of(const Key& key, const view::Lattice& lattice) {
-    return key.orbit.distance > 0 ? key.orbit.distance : lattice.diagonal() / 2 / half_angle(key.fov);
-}
-
 base::Status refused(std::size_t key, const std::string& what) {
     return base::error(base::Code::invalid_argument, fmt::format("key {}", key + 1), what);
 }
 
 base::Status validate_key(const Path& path, std::size_t i) {
     const Key& key = path.keys[i];
-    const view::Orbit& orbit = key.orbit;
-    for (const double number : {orbit.azimuth, orbit.elevation, orbit.distance, orbit.target.x,
-                                orbit.target.y, orbit.target.z, key.fov, key.time}) {
-        if (!std::isfinite(number) || std::abs(number) > 1e9) {
-            return refused(i, "a number is not finite or out of range");
-        }
+    if (const auto valid = view::validate(key.viewpoint); !valid) {
+        return refused(i, valid.error().detail);
     }
-    if (orbit.elevation < -90 || orbit.elevation > 90) {
-        return refused(i, "the elevation must lie between -90 and 90 degrees");
-    }
-    if (orbit.distance < 0) {
-        return refused(i, "the distance must be above 0");
-    }
-    if (key.fov < 1 || key.fov > 170) {
-        return refused(i, "the fov must lie between 1 and 170 degrees");
+    if (!std::isfinite(key.time)) {
+        return refused(i, "its time is not finite");
     }
     if (!path.cubes.empty() && key.cube >= path.cubes.size()) {
         return refused(i, fmt::format("there is no cube {}", key.cube + 1));
@@ -155,26 +136,35 @@ std::size_t cube_at(const Path& path, double time) {
     return path.keys[place_of(path, time).from].cube;
 }
 
-Shot shot_at(const Path& path, double time, const view::Lattice& lattice) {
+Seen seen_at(const Path& path, double time, const view::Lattice& lattice) {
     const Place place = place_of(path, time);
-    const auto& keys = path.keys;
-    const Key& last = keys[place.from];
-    const auto follow = [&](const Value& value) { return curve(keys, place, value); };
-    // At a key exactly the key's.
+    const Key& last = path.keys[place.from];
+    if (place.share <= 0) {
+        return {last.viewpoint, last.tf};
+    }
+    const auto follow = [&](const Value& value) { return curve(path.keys, place, value); };
+    const auto of_orbit = [&](double view::Orbit::*angle) {
+        return follow([=](const Key& key) { return key.viewpoint.orbit.*angle; });
+    };
+    const auto of_target = [&](double view::Vec3::*axis) {
+        return follow([=](const Key& key) { return key.viewpoint.orbit.target.*axis; });
+    };
     const double distance =
-        place.share <= 0
-            ? distance_of(last, lattice)
-            : std::exp(follow([&](const Key& key) { return std::log(distance_of(key, lattice)); }));
-    const view::Orbit orbit{.azimuth = follow([](const Key& key) { return key.orbit.azimuth; }),
-                            .elevation = follow([](const Key& key) { return key.orbit.elevation; }),
-                            .distance = distance,
-                            .target = {follow([](const Key& key) { return key.orbit.target.x; }),
-                                       follow([](const Key& key) { return key.orbit.target.y; }),
-                                       follow([](const Key& key) { return key.orbit.target.z; })}};
-    const double fov = follow([](const Key& key) { return key.fov; });
-    const view::TransferFunction& next = place.share > 0 ? keys[place.from + 1].tf : last.tf;
-    return {.camera = view::camera_on(orbit, lattice, last.projection, fov, 2 * distance * half_angle(fov)),
-            .tf = blend(last.tf, next, place.share)};
+        std::exp(follow([&](const Key& key) { return std::log(view::distance_of(key.viewpoint, lattice)); }));
+    return {.viewpoint = {.orbit = {.azimuth = of_orbit(&view::Orbit::azimuth),
+                                    .elevation = of_orbit(&view::Orbit::elevation),
+                                    .distance = distance,
+                                    .target = {of_target(&view::Vec3::x), of_target(&view::Vec3::y),
+                                               of_target(&view::Vec3::z)},
+                                    .roll = of_orbit(&view::Orbit::roll)},
+                          .projection = last.viewpoint.projection,
+                          .fov = follow([](const Key& key) { return key.viewpoint.fov; })},
+            .tf = blend(last.tf, path.keys[place.from + 1].tf, place.share)};
+}
+
+Shot shot_at(const Path& path, double time, const view::Lattice& lattice) {
+    Seen seen = seen_at(path, time, lattice);
+    return {.camera = view::camera(seen.viewpoint, lattice), .tf = std::move(seen.tf)};
 }
 
 }  // namespace shearwater::flight

@@ -16,18 +16,17 @@
 
 #include "common/base/result.h"
 #include "common/options/cube_options.h"
-#include "common/view/camera.h"
 #include "common/view/transfer_function.h"
+#include "common/view/viewpoint.h"
 
 namespace shearwater::flight {
 
 struct Key {
-    double time = 0;       // seconds from the flight's begin
-    std::size_t cube = 0;  // among the path's
-    view::Orbit orbit;     // azimuth as far as it is to turn: beyond 360 for more than one
-    view::Projection projection = view::Projection::perspective;
-    double fov = 30;  // degrees; a parallel picture is as high as the perspective one is at the target
+    double time = 0;            // seconds from the flight's begin
+    std::size_t cube = 0;       // among the path's
+    view::Viewpoint viewpoint;  // azimuth and roll as far as they are to turn: beyond 360 for more than one
     view::TransferFunction tf = view::default_transfer_function();
+    bool operator==(const Key&) const = default;
 };
 
 struct Path {
@@ -46,14 +45,19 @@ struct Path {
 // At least one key, the first at 0, times rising; every number in range, cubes among the path's.
 base::Status validate(const Path& path);
 
+// At a time, which is brought into the flight's: which cube, and what of it when its lattice is known.
+std::size_t cube_at(const Path& path, double time);
+struct Seen {
+    view::Viewpoint viewpoint;
+    view::TransferFunction tf;
+};
+Seen seen_at(const Path& path, double time, const view::Lattice& lattice);
+
 // What is seen of a cube.
 struct Shot {
     view::Camera camera;
     view::TransferFunction tf;
 };
-
-// At a time, which is brought into the flight's: which cube, and what of it when its lattice is known.
-std::size_t cube_at(const Path& path, double time);
 Shot shot_at(const Path& path, double time, const view::Lattice& lattice);
 
 }  // namespace shearwater::flight

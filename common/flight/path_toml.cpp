@@ -10,6 +10,7 @@
 
 #include "common/base/text_file.h"
 #include "common/options/drawing_options.h"
+#include "common/view/transfer_function_table.h"
 
 namespace shearwater::flight {
 
@@ -172,7 +173,8 @@ class Reader {
 
     void read_key(const toml::table& table, Key& key) {
         only_keys(table, "a key",
-                  {"time", "cube", "azimuth", "elevation", "distance", "target", "projection", "fov", "tf"});
+                  {"time", "cube", "azimuth", "elevation", "roll", "distance", "target", "projection", "fov",
+                   "tf"});
         if (!table.contains("time")) {
             fail(table, "a key needs its time");
         }
@@ -185,18 +187,20 @@ class Reader {
             }
             key.cube = from_one - 1;
         }
-        number(table, "azimuth", key.orbit.azimuth);
-        number(table, "elevation", key.orbit.elevation);
-        number(table, "distance", key.orbit.distance);
-        number(table, "fov", key.fov);
+        view::Viewpoint& viewpoint = key.viewpoint;
+        number(table, "azimuth", viewpoint.orbit.azimuth);
+        number(table, "elevation", viewpoint.orbit.elevation);
+        number(table, "roll", viewpoint.orbit.roll);
+        number(table, "distance", viewpoint.orbit.distance);
+        number(table, "fov", viewpoint.fov);
         if (const toml::node* node = table.get("target")) {
             const auto at = numbers(*node, "target", 3);
-            key.orbit.target = {at[0], at[1], at[2]};
+            viewpoint.orbit.target = {at[0], at[1], at[2]};
         }
         if (const toml::node* node = table.get("projection")) {
-            key.projection = word(*node, "projection", {"perspective", "parallel"}) == "parallel"
-                                 ? view::Projection::parallel
-                                 : view::Projection::perspective;
+            viewpoint.projection = word(*node, "projection", {"perspective", "parallel"}) == "parallel"
+                                       ? view::Projection::parallel
+                                       : view::Projection::perspective;
         }
         if (const toml::node* node = table.get("tf")) {
             read_tf(*node, key.tf);
@@ -204,18 +208,18 @@ class Reader {
     }
 
     void read_tf(const toml::node& node, view::TransferFunction& tf) {
-        base::Result<view::TransferFunction> read = view::TransferFunction{};
+        base::Result<view::AnchoredFunction> read = view::AnchoredFunction{};
         if (const toml::table* table = node.as_table()) {
-            std::ostringstream text;
-            text << *table;
-            read = view::transfer_function_from_toml(text.str(), "");
+            read = view::transfer_function_from_table(*table, "");
         } else if (std::string file = word(node, "tf"); !file.empty()) {
             read = options::read_transfer_function(beside(folder_, file));
         }
-        if (read) {
-            tf = *std::move(read);
-        } else {
+        if (!read) {
             fail(node, fmt::format("tf: {}", read.error().detail));
+        } else if (read->unit != view::Unit::stretched) {
+            fail(node, "tf: a flight's transfer functions are placed by stretched values");
+        } else {
+            tf = std::move(read->tf);
         }
     }
 
@@ -242,17 +246,19 @@ toml::table table_of(const options::CubeOptions& cube) {
 }
 
 toml::table table_of(const Key& key) {
-    const view::Orbit& orbit = key.orbit;
-    return toml::table{
-        {"time", key.time},
-        {"cube", static_cast<std::int64_t>(key.cube + 1)},
-        {"azimuth", orbit.azimuth},
-        {"elevation", orbit.elevation},
-        {"distance", orbit.distance},
-        {"target", toml::array{orbit.target.x, orbit.target.y, orbit.target.z}},
-        {"projection", key.projection == view::Projection::parallel ? "parallel" : "perspective"},
-        {"fov", key.fov},
-        {"tf", toml::parse(view::to_toml(key.tf))}};
+    const view::Viewpoint& viewpoint = key.viewpoint;
+    const view::Orbit& orbit = viewpoint.orbit;
+    const bool parallel = viewpoint.projection == view::Projection::parallel;
+    return toml::table{{"time", key.time},
+                       {"cube", static_cast<std::int64_t>(key.cube + 1)},
+                       {"azimuth", orbit.azimuth},
+                       {"elevation", orbit.elevation},
+                       {"roll", orbit.roll},
+                       {"distance", orbit.distance},
+                       {"target", toml::array{orbit.target.x, orbit.target.y, orbit.target.z}},
+                       {"projection", parallel ? "parallel" : "perspective"},
+                       {"fov", viewpoint.fov},
+                       {"tf", toml::parse(view::to_toml({.tf = key.tf}))}};
 }
 
 }  // namespace

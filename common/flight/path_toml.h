@@ -12,6 +12,7 @@
 //   cube = 1                     # from 1, in the order above
 //   azimuth = 30.0
 //   elevation = 20.0             # degrees
+//   roll = 0.0
 //   distance = 300.0             # world units; 0: the whole cube is seen
 //   target = [0.0, 0.0, 0.0]     # world
 //   projection = "perspective"   # or "parallel"

@@ -1,5 +1,6 @@
 #include "common/options/cube_options.h"
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <sstream>
 

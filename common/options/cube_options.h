@@ -2,13 +2,13 @@
 // The options that say which cube to show and how its values become codes: the server's and the
 // one command's.
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/base/result.h"
 #include "common/fits/cube.h"
+#include "common/options/cli_fwd.h"
 #include "common/view/geometry.h"
 #include "common/volume/mapping.h"
 

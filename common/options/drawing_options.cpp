@@ -1,5 +1,6 @@
 #include "common/options/drawing_options.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "common/base/text_file.h"
@@ -12,7 +13,8 @@ void DrawingOptions::add_to(CLI::App& app, const std::string& group) {
 }
 
 void DrawingOptions::add_tf(CLI::App& app, const std::string& group) {
-    app.add_option("--tf", tf_file, "transfer function, a TOML file")->group(group);
+    app.add_option("--tf", tf_file, "transfer function, a TOML file; its [scale] says by what it is placed")
+        ->group(group);
 }
 
 void DrawingOptions::add_ways(CLI::App& app, const std::string& group) {
@@ -52,11 +54,12 @@ void DrawingOptions::add_culling_threshold(CLI::App& app, const std::string& gro
         ->group(group);
 }
 
-base::Result<view::TransferFunction> DrawingOptions::transfer_function() const {
+base::Result<view::AnchoredFunction> DrawingOptions::transfer_function() const {
     if (taken_tf) {
-        return *taken_tf;
+        return view::AnchoredFunction{.tf = *taken_tf};
     }
-    return tf_file.empty() ? view::default_transfer_function() : read_transfer_function(tf_file);
+    return tf_file.empty() ? view::AnchoredFunction{.tf = view::default_transfer_function()}
+                           : read_transfer_function(tf_file);
 }
 
 view::Classify DrawingOptions::classification() const {
@@ -103,7 +106,7 @@ std::vector<std::string> DrawingOptions::arguments() const {
     return words;
 }
 
-base::Result<view::TransferFunction> read_transfer_function(const std::string& path) {
+base::Result<view::AnchoredFunction> read_transfer_function(const std::string& path) {
     constexpr std::size_t most_bytes = 1 << 20;
     const auto text = base::read_text_file(path, most_bytes);
     if (!text) {

@@ -1,16 +1,16 @@
 #pragma once
 // The options that say how a view is drawn, whoever asks for it: a still, a window, a measurement.
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/base/result.h"
 #include "common/culling/settings.h"
+#include "common/options/cli_fwd.h"
 #include "common/scene/scene.h"
+#include "common/view/anchored_function.h"
 #include "common/view/factorisation.h"
-#include "common/view/transfer_function.h"
 
 namespace shearwater::options {
 
@@ -31,7 +31,7 @@ struct DrawingOptions {
     void add_culling_threshold(CLI::App& app, const std::string& group = "Options");
 
     // That of the session or the file, or the default one.
-    base::Result<view::TransferFunction> transfer_function() const;
+    base::Result<view::AnchoredFunction> transfer_function() const;
     view::Classify classification() const;
     std::optional<bool> level_of_detail() const {
         return lod.empty() ? std::nullopt : std::optional(lod == "on");
@@ -52,6 +52,6 @@ void add_session(CLI::App& app, std::string& path, const std::vector<std::string
                  const std::string& group = "Options");
 
 // Of a file of TOML.
-base::Result<view::TransferFunction> read_transfer_function(const std::string& path);
+base::Result<view::AnchoredFunction> read_transfer_function(const std::string& path);
 
 }  // namespace shearwater::options

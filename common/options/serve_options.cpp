@@ -1,5 +1,7 @@
 #include "common/options/serve_options.h"
 
+#include <CLI/CLI.hpp>
+
 namespace shearwater::options {
 
 void ServeOptions::add_to(CLI::App& app) {

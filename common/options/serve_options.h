@@ -1,9 +1,10 @@
 #pragma once
 // The options that say what a server does for clients that do not say: the server's and the one command's.
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
+
+#include "common/options/cli_fwd.h"
 
 namespace shearwater::options {
 

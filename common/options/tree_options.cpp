@@ -1,5 +1,7 @@
 #include "common/options/tree_options.h"
 
+#include <CLI/CLI.hpp>
+
 #include "common/base/text_file.h"
 
 namespace shearwater::options {

@@ -1,11 +1,11 @@
 #pragma once
 // The options that say what tree to make and where its server listens.
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "common/base/result.h"
+#include "common/options/cli_fwd.h"
 #include "common/tree/topology.h"
 
 namespace shearwater::options {

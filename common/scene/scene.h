@@ -6,11 +6,20 @@
 #include <string>
 
 #include "common/culling/settings.h"
+#include "common/image/stereo_modes.h"
 #include "common/view/factorisation.h"
+#include "common/view/stereo.h"
 #include "common/view/transfer_function.h"
 #include "common/view/viewpoint.h"
 
 namespace shearwater::scene {
+
+// Two pictures, and how they are shown as one.
+struct Pair {
+    view::StereoSettings eyes;
+    image::StereoMode mode = image::StereoMode::side_by_side;
+    bool operator==(const Pair&) const = default;
+};
 
 struct Scene {
     std::string cube;  // the name of that it was kept from; empty: unknown
@@ -22,6 +31,8 @@ struct Scene {
     culling::Settings culling;
     std::optional<view::Quality> quality;  // else by the frame rate while the view moves, and high at rest
     double target_rate = 20;               // frames a second
+    std::optional<volume::Box> crop;       // of the cube that it was kept from
+    std::optional<Pair> stereo;
 
     bool operator==(const Scene&) const = default;
 

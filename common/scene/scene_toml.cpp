@@ -19,6 +19,7 @@ constexpr int version = 1;
 constexpr std::array<std::string_view, 2> projections{"perspective", "parallel"};
 constexpr std::array<std::string_view, 2> classifications{"post", "pre-integrated"};
 constexpr std::array<std::string_view, 4> qualities{"auto", "draft", "normal", "high"};
+constexpr std::array<std::string_view, 2> swaps{"no", "yes"};
 constexpr std::array<std::string_view, 3> levels{"server", "on", "off"};
 
 // Reads a document and keeps the first thing found wrong with it.
@@ -147,6 +148,29 @@ void read_drawing(Reader& reader, const toml::table& table, Scene& scene) {
     scene.culling.threshold = reader.number(table, "culling_threshold");
 }
 
+void read_crop(Reader& reader, const toml::table& table, Scene& scene) {
+    reader.only_keys(table, "[crop]", {"first", "last"});
+    const auto first = reader.numbers<3>(table, "first");
+    const auto last = reader.numbers<3>(table, "last");
+    volume::Box& box = scene.crop.emplace();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto plane = [](double voxel) {  // out of range stays out of range
+            return voxel >= 0 && voxel <= 1e9 ? static_cast<std::int64_t>(voxel) : std::int64_t{-1};
+        };
+        box.lo[axis] = plane(first[axis]);
+        box.hi[axis] = plane(last[axis]);
+    }
+}
+
+void read_stereo(Reader& reader, const toml::table& table, Scene& scene) {
+    reader.only_keys(table, "[stereo]", {"mode", "separation", "convergence", "swap"});
+    Pair& pair = scene.stereo.emplace();
+    pair.mode = static_cast<image::StereoMode>(reader.one_of(table, "mode", image::stereo_mode_names));
+    pair.eyes.separation = reader.number(table, "separation");
+    pair.eyes.convergence = reader.number(table, "convergence");
+    pair.eyes.swap = reader.one_of(table, "swap", swaps) == 1;
+}
+
 // The shortest text that reads back as the same number.
 std::string number_text(double value) {
     std::string digits = fmt::format("{}", value);
@@ -186,10 +210,17 @@ base::Result<Scene> scene_from_toml(std::string_view text, std::string_view sour
         return refuse(fmt::format("it is of version {}, and {} is known", *written, version));
     }
     Reader reader;
-    reader.only_keys(root, "the session", {"version", "cube", "drawing", "transfer_function", "camera"});
+    reader.only_keys(root, "the session",
+                     {"version", "cube", "drawing", "crop", "stereo", "transfer_function", "camera"});
     Scene scene;
     scene.cube = reader.text(root, "cube");
     read_drawing(reader, reader.section(root, "drawing"), scene);
+    if (root.contains("crop")) {
+        read_crop(reader, reader.section(root, "crop"), scene);
+    }
+    if (root.contains("stereo")) {
+        read_stereo(reader, reader.section(root, "stereo"), scene);
+    }
     read_camera(reader, reader.section(root, "camera"), scene);
     const toml::table& pins = reader.section(root, "transfer_function");
     if (!reader.fault().empty()) {
@@ -199,7 +230,10 @@ base::Result<Scene> scene_from_toml(std::string_view text, std::string_view sour
     if (!tf) {
         return tf.error();
     }
-    scene.tf = *std::move(tf);
+    if (tf->unit != view::Unit::stretched) {
+        return refuse("its transfer function is placed by other than stretched values");
+    }
+    scene.tf = std::move(tf->tf);
     if (const auto valid = validate(scene); !valid) {
         return refuse(valid.error().detail);
     }
@@ -220,7 +254,19 @@ std::string to_toml(const Scene& scene) {
         classifications[static_cast<std::size_t>(scene.classify)], levels[level],
         culling::kind_names[static_cast<std::size_t>(scene.culling.kind)],
         number_text(scene.culling.threshold));
-    out += "\n" + view::to_toml(scene.tf, "transfer_function");
+    if (scene.crop) {
+        const auto& [lo, hi] = *scene.crop;
+        out += fmt::format("\n[crop]\nfirst = [{}]\nlast = [{}]\n", fmt::join(lo, ", "), fmt::join(hi, ", "));
+    }
+    if (scene.stereo) {
+        const view::StereoSettings& eyes = scene.stereo->eyes;
+        out += fmt::format(
+            "\n[stereo]\nmode = \"{}\"\nseparation = {}  # 0: a thirtieth of the convergence\n"
+            "convergence = {}  # 0: as far as the target\nswap = \"{}\"\n",
+            image::stereo_mode_names[static_cast<std::size_t>(scene.stereo->mode)],
+            number_text(eyes.separation), number_text(eyes.convergence), swaps[eyes.swap ? 1 : 0]);
+    }
+    out += "\n" + view::to_toml({.tf = scene.tf}, "transfer_function");
     out += fmt::format(
         "\n[camera]\nazimuth = {}\nelevation = {}\nroll = {}\ndistance = {}  # 0: all of the cube is seen\n"
         "target = [{}, {}, {}]\nfov = {}\nsize = [{}, {}]\nprojection = \"{}\"\n",

@@ -162,4 +162,17 @@ base::Result<std::vector<ColourPin>> colour_map(std::string_view name) {
     return backwards ? reversed(found->pins()) : found->pins();
 }
 
+std::string colour_map_name(const std::vector<ColourPin>& pins) {
+    for (const NamedMap& map : maps) {
+        const std::vector<ColourPin> these = map.pins();
+        if (these == pins) {
+            return std::string(map.name);
+        }
+        if (reversed(these) == pins) {
+            return std::string(map.name) + "-r";
+        }
+    }
+    return {};
+}
+
 }  // namespace shearwater::view

@@ -13,15 +13,18 @@ double opacity_of(const Ramp& ramp, double s) {
     return ramp.a0 + t * (ramp.a1 - ramp.a0);
 }
 
+// Either side as if it were the right one.
 double opacity_of(const Hat& hat, double s) {
-    const double from_centre = std::abs(s - hat.centre);
-    if (from_centre <= hat.top / 2) {
+    const double from_centre = s - hat.centre;
+    const double side = from_centre < hat.lean ? -1 : 1;
+    const double foot = hat.base / 2, shoulder = side * hat.lean + hat.top / 2;
+    if (side * (from_centre - hat.lean) <= hat.top / 2) {
         return hat.height;
     }
-    if (from_centre >= hat.base / 2) {
+    if (side * from_centre >= foot) {
         return 0;
     }
-    return hat.height * (hat.base / 2 - from_centre) / (hat.base / 2 - hat.top / 2);
+    return hat.height * (foot - side * from_centre) / (foot - shoulder);
 }
 
 double opacity_of(const Flat& flat, double) {
@@ -36,11 +39,8 @@ bool blanks(const OpacityPin& pin, double s) {
     return blank != nullptr && blank->lo <= s && s <= blank->hi;
 }
 
-// Positions and widths may reach beyond [0, 1], so that a pin can be moved partly out of sight.
-constexpr double farthest = 1e6;
-
 bool is_position(double x) {
-    return std::isfinite(x) && std::abs(x) <= farthest;
+    return std::isfinite(x) && std::abs(x) <= TransferFunction::farthest;
 }
 bool is_share(double a) {
     return a >= 0 && a <= 1;
@@ -60,6 +60,9 @@ std::string_view fault_of(const Hat& hat) {
     }
     if (hat.top < 0 || hat.base < hat.top) {
         return "hat: top must be 0 or more, and base no smaller than top";
+    }
+    if (!(std::abs(hat.lean) <= (hat.base - hat.top) / 2)) {
+        return "hat: lean must not carry the top beyond the base";
     }
     return is_share(hat.height) ? "" : "hat: height must lie in 0 to 1";
 }
@@ -107,12 +110,16 @@ std::string fault_of(const TransferFunction& tf) {
             return fmt::format("opacity pin {}: {}", i + 1, fault);
         }
     }
+    if (!(tf.density >= TransferFunction::min_density && tf.density <= TransferFunction::max_density)) {
+        return fmt::format("density: it must lie in {} to {}", TransferFunction::min_density,
+                           TransferFunction::max_density);
+    }
     return is_colour(tf.background) ? fault_of_colours(tf.colour_pins) : "background: out of range";
 }
 
 }  // namespace
 
-double TransferFunction::opacity(double s) const {
+double TransferFunction::height(double s) const {
     double largest = 0;
     for (const OpacityPin& pin : opacity_pins) {
         if (blanks(pin, s)) {
@@ -123,9 +130,14 @@ double TransferFunction::opacity(double s) const {
     return largest;
 }
 
+double TransferFunction::opacity(double s) const {
+    const double a = height(s);
+    return density == 1 ? a : -std::expm1(density * std::log1p(-a));
+}
+
 double TransferFunction::extinction(double s) const {
-    const double a = opacity(s);
-    return a < 1 ? std::min(-std::log1p(-a), opaque) : opaque;
+    const double a = height(s);
+    return a < 1 ? std::min(-density * std::log1p(-a), opaque) : opaque;
 }
 
 Rgb TransferFunction::colour(double s) const {

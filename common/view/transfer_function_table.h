@@ -3,12 +3,12 @@
 
 #include <toml++/toml.h>
 
-#include "common/view/transfer_function.h"
+#include "common/view/anchored_function.h"
 
 namespace shearwater::view {
 
 // As transfer_function_from_toml, lines counted in the document. `operation` is what an error says was done.
-base::Result<TransferFunction> transfer_function_from_table(const toml::table& table,
+base::Result<AnchoredFunction> transfer_function_from_table(const toml::table& table,
                                                             const std::string& operation);
 
 }  // namespace shearwater::view

@@ -17,15 +17,22 @@ constexpr std::size_t longest_text = std::size_t{1} << 20;
 // Reads one document and keeps the first thing found wrong with it.
 class Reader {
   public:
-    TransferFunction read(const toml::table& root) {
-        only_keys(root, "the transfer function", {"colourmap", "colour", "opacity", "background"});
-        TransferFunction tf;
+    AnchoredFunction read(const toml::table& root) {
+        only_keys(root, "the transfer function",
+                  {"colourmap", "colour", "opacity", "background", "density", "scale"});
+        AnchoredFunction function;
+        TransferFunction& tf = function.tf;
+        function.unit = unit(root);
+        function.own_colours = root.get("colour") != nullptr;
         tf.colour_pins = colours(root);
         each_table(root, "opacity", [&](const toml::table& table) { tf.opacity_pins.push_back(pin(table)); });
         if (const toml::node* node = root.get("background")) {
             tf.background = rgb(*node, "background");
         }
-        return tf;
+        if (root.get("density") != nullptr) {
+            tf.density = number(root, "density");
+        }
+        return function;
     }
 
     const std::string& fault() const { return fault_; }
@@ -66,6 +73,26 @@ class Reader {
                 use(*table.as_table());
             }
         }
+    }
+
+    Unit unit(const toml::table& root) {
+        const toml::node* node = root.get("scale");
+        if (node == nullptr) {
+            return Unit::stretched;
+        }
+        const toml::table* table = node->as_table();
+        if (table == nullptr) {
+            fail(fmt::format("line {}: write the scale as [scale]", node->source().begin.line));
+            return Unit::stretched;
+        }
+        only_keys(*table, "the scale", {"unit"});
+        const auto text = (*table)["unit"].value_exact<std::string>();
+        const auto unit = text ? unit_named(*text) : std::nullopt;
+        if (!unit) {
+            fail(fmt::format("line {}: unit must be stretched, value, percentile or sigma",
+                             table->source().begin.line));
+        }
+        return unit.value_or(Unit::stretched);
     }
 
     std::vector<ColourPin> colours(const toml::table& root) {
@@ -114,9 +141,9 @@ class Reader {
             return Ramp{number(table, "x0"), number(table, "a0"), number(table, "x1"), number(table, "a1")};
         }
         if (*kind == "hat") {
-            only_keys(table, "a hat", {"kind", "centre", "top", "base", "height"});
+            only_keys(table, "a hat", {"kind", "centre", "top", "base", "height", "lean"});
             return Hat{number(table, "centre"), number(table, "top"), number(table, "base"),
-                       number(table, "height")};
+                       number(table, "height"), table.get("lean") != nullptr ? number(table, "lean") : 0};
         }
         if (*kind == "flat") {
             only_keys(table, "a flat", {"kind", "height"});
@@ -141,7 +168,11 @@ class Reader {
             missing(table, key);
             return 0;
         }
-        return node->value<double>().value_or(0);
+        const double value = node->value<double>().value_or(0);
+        if (!std::isfinite(value)) {
+            missing(table, key);
+        }
+        return value;
     }
 
     Rgb rgb(const toml::node& node, std::string_view key) {
@@ -187,7 +218,8 @@ std::string pin_text(const Ramp& p) {
 }
 std::string pin_text(const Hat& p) {
     return fmt::format("kind = \"hat\"\ncentre = {}\ntop = {}\nbase = {}\nheight = {}\n", text(p.centre),
-                       text(p.top), text(p.base), text(p.height));
+                       text(p.top), text(p.base), text(p.height)) +
+           (p.lean != 0 ? fmt::format("lean = {}\n", text(p.lean)) : "");
 }
 std::string pin_text(const Flat& p) {
     return fmt::format("kind = \"flat\"\nheight = {}\n", text(p.height));
@@ -196,20 +228,9 @@ std::string pin_text(const Blank& p) {
     return fmt::format("kind = \"blank\"\nlo = {}\nhi = {}\n", text(p.lo), text(p.hi));
 }
 
-std::string colours_text(const std::vector<ColourPin>& pins) {
-    for (const std::string& name : colour_map_names()) {
-        for (const std::string& variant : {name, name + "-r"}) {
-            if (colour_map(variant).value() == pins) {
-                return fmt::format("colourmap = \"{}\"\n", variant);
-            }
-        }
-    }
-    return {};
-}
-
 }  // namespace
 
-base::Result<TransferFunction> transfer_function_from_toml(std::string_view text, std::string_view source) {
+base::Result<AnchoredFunction> transfer_function_from_toml(std::string_view text, std::string_view source) {
     const std::string operation = fmt::format("read transfer function {}", source);
     if (text.size() > longest_text) {
         return base::error(base::Code::too_large, operation, "more than 1 MiB");
@@ -224,25 +245,35 @@ base::Result<TransferFunction> transfer_function_from_toml(std::string_view text
     return transfer_function_from_table(root, operation);
 }
 
-base::Result<TransferFunction> transfer_function_from_table(const toml::table& table,
+base::Result<AnchoredFunction> transfer_function_from_table(const toml::table& table,
                                                             const std::string& operation) {
     Reader reader;
-    TransferFunction tf = reader.read(table);
+    AnchoredFunction function = reader.read(table);
     if (!reader.fault().empty()) {
         return base::error(base::Code::invalid_argument, operation, reader.fault());
     }
-    if (const auto valid = validate(tf); !valid) {
-        return base::error(base::Code::invalid_argument, operation, valid.error().detail);
+    if (function.unit == Unit::stretched) {  // else when it is put on a scale
+        if (const auto valid = validate(function.tf); !valid) {
+            return base::error(base::Code::invalid_argument, operation, valid.error().detail);
+        }
     }
-    return tf;
+    return function;
 }
 
-std::string to_toml(const TransferFunction& tf, const std::string& within) {
+std::string to_toml(const AnchoredFunction& function, const std::string& within) {
     const std::string in = within.empty() ? "" : within + ".";
-    std::string out = colours_text(tf.colour_pins);
-    const bool named = !out.empty();
+    const TransferFunction& tf = function.tf;
+    const std::string map = colour_map_name(tf.colour_pins);
+    const bool named = !map.empty() && (function.unit == Unit::stretched || !function.own_colours);
+    std::string out = named ? fmt::format("colourmap = \"{}\"\n", map) : "";
     if (tf.background != Rgb{}) {
         out += fmt::format("background = {}\n", rgb_text(tf.background));
+    }
+    if (tf.density != 1) {
+        out += fmt::format("density = {}\n", text(tf.density));
+    }
+    if (function.unit != Unit::stretched) {
+        out += fmt::format("\n[{}scale]\nunit = \"{}\"\n", in, name(function.unit));
     }
     if (!named) {
         for (const ColourPin& pin : tf.colour_pins) {

@@ -27,6 +27,16 @@ Box whole(const Index3& n) {
     return {{0, 0, 0}, {n[0] - 1, n[1] - 1, n[2] - 1}};
 }
 
+Box owned_planes(const Box& box, const Index3& n) {
+    Box owned = box;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (box.hi[axis] != n[axis] - 1) {
+            --owned.hi[axis];
+        }
+    }
+    return owned;
+}
+
 std::string to_string(const Box& box) {
     std::string text;
     for (int axis = 0; axis < 3; ++axis) {

@@ -31,6 +31,10 @@ struct Box {
 // The region between the first and last voxel centre of a cube of n voxels.
 Box whole(const Index3& n);
 
+// The planes that a box of a cube of n voxels owns, first and last both included: all but its upper ones, where it
+// does not end with the cube. No voxel is in two boxes' of a division, and each is in one's.
+Box owned_planes(const Box& box, const Index3& n);
+
 // "[0,64) x [0,64) x [32,64)"
 std::string to_string(const Box& box);
 

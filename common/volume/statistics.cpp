@@ -12,17 +12,6 @@ namespace shearwater::volume {
 
 namespace {
 
-// The planes a box owns, first and last both included.
-Box owned_planes(const Box& box, const Index3& n) {
-    Box owned = box;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (box.hi[axis] != n[axis] - 1) {
-            --owned.hi[axis];
-        }
-    }
-    return owned;
-}
-
 // How many planes of each axis a slab takes so that it has at most `voxels`, one at the least: whole
 // rows first, then whole planes, as they lie in a file.
 Index3 slab_shape(const Index3& planes, std::int64_t voxels) {

@@ -1,5 +1,6 @@
 // shearwater bench: how fast pictures are drawn here, beside the figures of the DVR paper.
 
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <tuple>
 #include <utility>

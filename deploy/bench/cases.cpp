@@ -1,5 +1,7 @@
 #include "deploy/bench/cases.h"
 
+#include <CLI/CLI.hpp>
+
 #include "deploy/bench/options.h"
 #include "deploy/bench/workload.h"
 #include "deploy/progress_bar.h"
@@ -33,7 +35,11 @@ base::Result<std::vector<Case>> CaseOptions::cases() const {
         }
         return cases;
     }
-    const auto tf = options::DrawingOptions{.tf_file = tf_file}.transfer_function();
+    const auto function = options::DrawingOptions{.tf_file = tf_file}.transfer_function();
+    if (!function) {
+        return function.error();
+    }
+    const auto tf = view::on_scale(*function, nullptr);
     if (!tf) {
         return tf.error();
     }

@@ -1,11 +1,11 @@
 #pragma once
 // What a benchmark in one process draws: workloads, or a FITS file.
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "common/base/result.h"
+#include "common/options/cli_fwd.h"
 #include "common/options/cube_options.h"
 #include "common/view/transfer_function.h"
 #include "deploy/bench/in_process.h"

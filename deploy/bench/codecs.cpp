@@ -1,5 +1,6 @@
 // bench codecs: what is done to pixels between the kernel and the window, on frames of each workload.
 
+#include <CLI/CLI.hpp>
 #include <optional>
 
 #include "common/image/over.h"
@@ -129,7 +130,7 @@ base::Status codecs(const Flags& flags) {
         deploy::ProgressBar bar(name);
         bar.show(0);
         auto cube = InProcess::load(work.cube(flags.edge), flags.common.threads,
-                                          [&](double share) { bar.show(share); });
+                                    [&](double share) { bar.show(share); });
         if (!cube) {
             return cube.error();
         }

@@ -2,6 +2,7 @@
 
 #include "deploy/bench/culling.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "common/base/check.h"

@@ -1,5 +1,6 @@
 // bench frame: one process draws frames along the path, or along each axis.
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 

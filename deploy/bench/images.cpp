@@ -1,6 +1,8 @@
 // bench images: the paper's Table 2, pictures of several sizes of one cube by seven nodes.
 
 #include "deploy/bench/in_process.h"
+
+#include <CLI/CLI.hpp>
 #include "deploy/bench/on_tree.h"
 #include "deploy/bench/options.h"
 #include "deploy/bench/paper.h"

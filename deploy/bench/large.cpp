@@ -1,5 +1,6 @@
 // bench large: the paper's largest run. Renderers make their own part of the cube, which no file holds.
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "deploy/bench/on_tree.h"

@@ -1,6 +1,7 @@
 // bench load: how fast a cube in the page cache becomes bricks and is seen, and how soon that ends when told
 // to.
 
+#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <filesystem>
 

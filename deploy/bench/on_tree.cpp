@@ -46,7 +46,7 @@ base::Result<deploy::Picture> OnTree::draw_path(deploy::ViewOptions view, int fr
     view.orbit.azimuth -= before * Path::turn;
     auto picture = deploy::draw_over_links(
         "shearwater bench", target_, view, *size,
-        deploy::script_of(view, tf, before + frames, Path::turn, in_flight), progress);
+        deploy::script_of(view, {.tf = tf}, before + frames, Path::turn, in_flight), progress);
     if (picture) {
         picture->each.erase(picture->each.begin(), picture->each.begin() + before);
         picture->seconds = deploy::median(picture->each);

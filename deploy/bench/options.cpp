@@ -1,5 +1,7 @@
 #include "deploy/bench/options.h"
 
+#include <CLI/CLI.hpp>
+
 #include "deploy/bench/workload.h"
 #include "deploy/target.h"
 

@@ -1,11 +1,11 @@
 #pragma once
 // The options that benchmarks have in common.
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "common/base/result.h"
+#include "common/options/cli_fwd.h"
 #include "deploy/view_options.h"
 
 namespace shearwater::bench {

@@ -1,6 +1,8 @@
 // bench stages: the paper's Figure 8, where the time of one frame goes.
 
 #include "deploy/bench/on_tree.h"
+
+#include <CLI/CLI.hpp>
 #include "deploy/bench/options.h"
 #include "deploy/bench/report.h"
 #include "deploy/bench/subcommands.h"

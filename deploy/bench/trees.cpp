@@ -1,5 +1,6 @@
 // bench trees: the paper's Table 1, with real daemons.
 
+#include <CLI/CLI.hpp>
 #include <bit>
 #include <optional>
 

@@ -1,10 +1,10 @@
 #pragma once
 // The options that daemons have in common.
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "common/base/result.h"
+#include "common/options/cli_fwd.h"
 #include "protocol/link/secret.h"
 #include "protocol/node/member.h"
 

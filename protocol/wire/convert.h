@@ -16,6 +16,7 @@
 #include "common/volume/box.h"
 #include "common/volume/histogram.h"
 #include "common/volume/mapping.h"
+#include "common/volume/summary.h"
 #include "protocol/wire/header.h"
 
 namespace shearwater::wire {
@@ -28,6 +29,7 @@ pb::Camera to_wire(const view::Camera& camera);
 pb::TransferFunction to_wire(const view::TransferFunction& tf);
 pb::Factorisation to_wire(const view::Factorisation& factorisation);
 pb::HistogramReport to_wire(const volume::Histogram& histogram);
+pb::ValueSummary to_wire(const volume::Summary& summary);
 pb::Quality to_wire(view::Quality quality);
 
 Parsed<volume::Box> box_from(const pb::Box& box);  // lo <= hi, indices within 2^40
@@ -36,6 +38,7 @@ Parsed<volume::Mapping> mapping_from(const pb::Mapping& mapping);
 Parsed<view::TransferFunction> transfer_function_from(const pb::TransferFunction& tf);
 Parsed<view::Factorisation> factorisation_from(const pb::Factorisation& factorisation);
 Parsed<volume::Histogram> histogram_from(const pb::HistogramReport& report);
+Parsed<volume::Summary> summary_from(const pb::ValueSummary& summary);
 
 // A client's request, whole: camera and size are valid together.
 struct View {

@@ -59,6 +59,7 @@ void set(pb::OpacityPin& to, const view::Hat& hat) {
     to.mutable_hat()->set_top(hat.top);
     to.mutable_hat()->set_base(hat.base);
     to.mutable_hat()->set_height(hat.height);
+    to.mutable_hat()->set_lean(hat.lean);
 }
 void set(pb::OpacityPin& to, const view::Flat& flat) {
     to.mutable_flat()->set_height(flat.height);
@@ -73,7 +74,8 @@ Parsed<view::OpacityPin> opacity_pin_from(const pb::OpacityPin& pin) {
         case pb::OpacityPin::kRamp:
             return view::Ramp{pin.ramp().x0(), pin.ramp().a0(), pin.ramp().x1(), pin.ramp().a1()};
         case pb::OpacityPin::kHat:
-            return view::Hat{pin.hat().centre(), pin.hat().top(), pin.hat().base(), pin.hat().height()};
+            return view::Hat{pin.hat().centre(), pin.hat().top(), pin.hat().base(), pin.hat().height(),
+                             pin.hat().lean()};
         case pb::OpacityPin::kFlat:
             return view::Flat{pin.flat().height()};
         case pb::OpacityPin::kBlank:
@@ -177,6 +179,9 @@ pb::TransferFunction to_wire(const view::TransferFunction& tf) {
         set(*colour_pin.mutable_colour(), pin.rgb);
     }
     set(*to.mutable_background(), tf.background);
+    if (tf.density != 1) {
+        to.set_density(tf.density);
+    }
     return to;
 }
 
@@ -197,6 +202,7 @@ Parsed<view::TransferFunction> transfer_function_from(const pb::TransferFunction
         from.colour_pins.push_back({.at = pin.at(), .rgb = colour_from(pin.colour())});
     }
     from.background = colour_from(tf.background());
+    from.density = tf.has_density() ? tf.density() : 1;
     if (const auto status = view::validate(from); !status) {
         return invalid(status.error());
     }

@@ -1,6 +1,7 @@
 // Boxes, lattices, mappings and histograms.
 
 #include <limits>
+#include <utility>
 
 #include "protocol/wire/convert.h"
 #include "protocol/wire/convert_fields.h"
@@ -177,6 +178,40 @@ Parsed<volume::Histogram> histogram_from(const pb::HistogramReport& report) {
         return invalid("histogram: min, max and the bins contradict each other");
     }
     return histogram;
+}
+
+pb::ValueSummary to_wire(const volume::Summary& summary) {
+    pb::ValueSummary to;
+    to.mutable_counts()->Assign(summary.counts.begin(), summary.counts.end());
+    to.set_below(summary.below);
+    to.set_above(summary.above);
+    to.set_blank(summary.blank);
+    to.set_min(summary.min);
+    to.set_max(summary.max);
+    to.set_median(summary.median);
+    to.set_sigma(summary.sigma);
+    to.mutable_quantiles()->Assign(summary.quantiles.begin(), summary.quantiles.end());
+    return to;
+}
+
+Parsed<volume::Summary> summary_from(const pb::ValueSummary& summary) {
+    if (std::cmp_greater(summary.counts_size(), volume::Summary::max_bins) ||
+        std::cmp_greater(summary.quantiles_size(), volume::Summary::quantile_count)) {
+        return invalid("values: too many bins or quantiles");
+    }
+    volume::Summary from{.counts = {summary.counts().begin(), summary.counts().end()},
+                         .below = summary.below(),
+                         .above = summary.above(),
+                         .blank = summary.blank(),
+                         .min = summary.min(),
+                         .max = summary.max(),
+                         .median = summary.median(),
+                         .sigma = summary.sigma(),
+                         .quantiles = {summary.quantiles().begin(), summary.quantiles().end()}};
+    if (const auto status = volume::validate(from); !status) {
+        return invalid("values: " + status.error().detail);
+    }
+    return from;
 }
 
 }  // namespace shearwater::wire

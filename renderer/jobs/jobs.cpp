@@ -8,6 +8,7 @@
 #include "common/base/memory.h"
 #include "common/base/stopwatch.h"
 #include "common/cube/open.h"
+#include "common/volume/counting_source.h"
 #include "common/volume/statistics.h"
 #include "protocol/node/merge.h"
 #include "renderer/culling/culler.h"
@@ -159,8 +160,14 @@ void Jobs::load(const leaf::Load& job, const std::stop_token& stop) {
     }
     sketch(job.job, job.share, job.sketch_level, **source, stop);
     const auto progress = [&](double fraction) { tell_(leaf::Advanced{job.job, fraction}); };
-    auto bricks = shear::BrickVolume::load(**source, job.share.box, job.share.lattice.n, job.mapping,
-                                           loaders_, progress, stop);
+    const auto& n = job.share.lattice.n;
+    std::optional<volume::CountingSource> counting;
+    if (job.count) {
+        counting.emplace(**source, job.share.box, n);
+    }
+    volume::VoxelSource& voxels = counting ? *counting : **source;
+    auto bricks =
+        shear::BrickVolume::load(voxels, job.share.box, n, job.mapping, loaders_, progress, stop);
     if (!bricks) {
         tell_(leaf::Loaded{job.job, bricks.error()});
         return;
@@ -168,7 +175,7 @@ void Jobs::load(const leaf::Load& job, const std::stop_token& stop) {
     put(Drawable{std::make_shared<const shear::BrickVolume>(*std::move(bricks))});
     base::release_free_memory();
     tell_memory();
-    tell_(leaf::Loaded{job.job, {}});
+    tell_(leaf::Loaded{job.job, {}, counting ? std::optional(counting->histogram()) : std::nullopt});
 }
 
 Jobs::Drawable* Jobs::drawable(const leaf::Draw& draw) {

@@ -76,6 +76,10 @@ Effects Leaf::handle(JobEvent event, wire::Time now) {
         if (loaded->job == load_job_) {
             load_job_ = 0;
             if (loaded->status) {
+                if (loaded->histogram) {
+                    histogram_ = std::move(loaded->histogram);
+                    send_histogram(histogram_, false, effects);
+                }
                 loaded_mapping_ = mapping_;
                 advance(effects);
             } else {
@@ -178,7 +182,7 @@ void Leaf::begin_load(Effects& effects) {
         give_up_frames(effects);
     }
     load_job_ = ++last_job_;
-    effects.jobs.emplace_back(Load{load_job_, *share_, *mapping_, sketch_to_make()});
+    effects.jobs.emplace_back(Load{load_job_, *share_, *mapping_, sketch_to_make(), !histogram_});
     enter(pb::PHASE_LOADING, effects);
 }
 

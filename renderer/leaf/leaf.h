@@ -51,6 +51,7 @@ struct Load {
     Share share;
     volume::Mapping mapping;
     int sketch_level = 0;  // as for Count
+    bool count = false;    // values too, on their way: they were not counted before
 };
 // Goes on beside counting and loading. Drawing the cube lets go of the sketch.
 struct Draw {
@@ -101,6 +102,7 @@ struct Counted {
 struct Loaded {
     Job job;
     base::Status status;
+    std::optional<volume::Histogram> histogram = {};  // where it was to count
 };
 struct Drawn {  // some of the frame's bands
     Job job;

@@ -10,9 +10,9 @@ ExtinctionMeans::ExtinctionMeans(const view::TransferFunction& tf) : tf_(tf) {
         if (const auto* ramp = std::get_if<view::Ramp>(&pin)) {
             bends_.insert(bends_.end(), {ramp->x0, ramp->x1});
         } else if (const auto* hat = std::get_if<view::Hat>(&pin)) {
-            for (const double width : {-hat->base, -hat->top, hat->top, hat->base}) {
-                bends_.push_back(hat->centre + width / 2);
-            }
+            const double top = hat->centre + hat->lean;
+            bends_.insert(bends_.end(), {hat->centre - hat->base / 2, top - hat->top / 2, top + hat->top / 2,
+                                         hat->centre + hat->base / 2});
         } else if (const auto* blank = std::get_if<view::Blank>(&pin)) {
             bends_.insert(bends_.end(), {blank->lo, blank->hi});
         }

@@ -9,7 +9,6 @@ namespace shearwater::head {
 
 namespace pb = wire::pb;
 using namespace std::chrono_literals;
-using Counted = node::Branch::Counted;
 
 Head::Head(Roster roster, Limits limits)
     : roster_(std::move(roster)), limits_(limits), functions_(roster_.plan().renderers_below(0).size()) {
@@ -186,61 +185,6 @@ void Head::tell_state(Effects& effects) {
     for (const auto& [link, session] : sessions_) {
         effects.net.emplace_back(wire::Send{link, state});
     }
-}
-
-volume::Mapping Head::mapping_from(const volume::Histogram& histogram) const {
-    const volume::Limits limits = volume::percentile_limits(histogram, limits_.percentile);
-    return {.lo = limits.lo, .hi = limits.hi, .stretch = limits_.stretch, .bits = limits_.bits};
-}
-
-void Head::settle_sketch(wire::Time now, Effects& effects) {
-    if (!branch_.take_histogram_news(Counted::sketches) || sketch_ || roster_.cube().sketch_level == 0) {
-        return;
-    }
-    const auto histogram = branch_.histogram(Counted::sketches);
-    if (!histogram) {
-        return;
-    }
-    sketch_ = mapping_from(*histogram);
-    for (auto& [link, session] : sessions_) {
-        if (!mapping_) {
-            describe_cube(link, effects);
-        }
-        begin_frames(link, session, now, effects);
-    }
-}
-
-void Head::settle_mapping(Effects& effects) {
-    if (!branch_.take_histogram_news(Counted::voxels) || mapping_) {
-        return;
-    }
-    const auto histogram = branch_.histogram(Counted::voxels);
-    if (!histogram) {
-        return;
-    }
-    mapping_ = mapping_from(*histogram);
-    pb::SetMapping set;
-    *set.mutable_mapping() = wire::to_wire(*mapping_);
-    branch_.tell_children(wire::message(std::move(set)), effects.net);
-    for (const auto& [link, session] : sessions_) {
-        describe_cube(link, effects);
-    }
-}
-
-void Head::describe_cube(wire::LinkId client, Effects& effects) const {
-    const auto& mapping = mapping_ ? mapping_ : sketch_;
-    if (!mapping) {
-        return;
-    }
-    const CubeFacts& cube = roster_.cube();
-    pb::CubeDescription description;
-    description.set_name(cube.name);
-    description.set_object(cube.object);
-    description.set_unit(cube.unit);
-    *description.mutable_lattice() = wire::to_wire(cube.lattice);
-    *description.mutable_mapping() = wire::to_wire(*mapping);
-    description.set_provisional(!mapping_);
-    effects.net.emplace_back(wire::Send{client, wire::message(std::move(description))});
 }
 
 }  // namespace shearwater::head

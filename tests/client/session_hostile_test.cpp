@@ -118,6 +118,12 @@ TEST_F(SessionTest, HostileDescriptionsTreesAndTypesEndTheLink) {
     EXPECT_THAT(closes_, SizeIs(1));
 
     fresh();
+    d = description();
+    d.mutable_values()->add_quantiles(1);
+    receive(d);
+    expect_closed(pb::REASON_INVALID, "values");
+
+    fresh();
     auto orphan = tree({pb::PHASE_READY});
     orphan.mutable_nodes(1)->set_parent(9);
     receive(orphan);

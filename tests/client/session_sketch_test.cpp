@@ -113,5 +113,31 @@ TEST_F(SessionSketchTest, CountForNoRate) {
     EXPECT_EQ(status().rates.latency_seconds, 0);
 }
 
+// With what is known of the values at the time; that more is known is no other cube.
+TEST_F(SessionSketchTest, TellsWhatIsKnownOfTheValues) {
+    look();
+    EXPECT_EQ(status().cube->values, nullptr);
+    volume::Histogram histogram;
+    for (int i = 0; i < 100; ++i) {
+        histogram.add(static_cast<float>(i) / 100);
+    }
+    const volume::Summary first = volume::summarise(histogram, {.lo = 0, .hi = 0.75});
+    pb::CubeDescription described = provisional();
+    *described.mutable_values() = wire::to_wire(first);
+    described.mutable_values()->set_provisional(true);
+    receive(described);
+    ASSERT_NE(status().cube->values, nullptr);
+    EXPECT_EQ(*status().cube->values, first);
+    EXPECT_TRUE(status().cube->provisional_values);
+    EXPECT_TRUE(status().cube->scale().has(view::Unit::sigma));
+    histogram.add(3);
+    described = description();
+    *described.mutable_values() = wire::to_wire(volume::summarise(histogram, {}));
+    receive(described);
+    EXPECT_EQ(status().cube->values->max, 3);
+    EXPECT_FALSE(status().cube->provisional_values);
+    EXPECT_THAT(views_, SizeIs(1)) << "nothing is asked for again";
+}
+
 }  // namespace
 }  // namespace shearwater::model

@@ -42,7 +42,7 @@ TEST_F(SessionTest, DecodesAcknowledgesAndMeasures) {
     EXPECT_THAT(shown_, testing::ElementsAre(1));
     EXPECT_NEAR(status().rates.latency_seconds, 0.04, 1e-9);
     EXPECT_NEAR(status().rates.bytes_per_frame, static_cast<double>(bytes.size()), 1e-9);
-    EXPECT_NEAR(status().frame->server_seconds, 0.03, 1e-9);
+    EXPECT_NEAR(status().frame->stages.link, 0.01, 1e-9);
     EXPECT_FALSE(session_.take_picture()) << "each picture is given once";
 }
 

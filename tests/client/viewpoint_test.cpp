@@ -6,8 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "client/model/look.h"
-
 namespace shearwater::model {
 namespace {
 
@@ -341,38 +339,6 @@ TEST(Numbers, OutOfRangeChangeNothing) {
     EXPECT_FALSE(set_number(viewpoint, Number::distance, 0, Units::world, lattice));
     EXPECT_FALSE(set_number(viewpoint, Number::elevation, 90.5, Units::world, lattice));
     EXPECT_EQ(viewpoint, before);
-}
-
-TEST(Look, NamesEveryMapAndNoOther) {
-    for (const std::string& name : view::colour_map_names()) {
-        EXPECT_EQ(map_name_of(view::colour_map(name).value()), name);
-        EXPECT_EQ(map_name_of(view::colour_map(name + "-r").value()), name + "-r");
-    }
-    EXPECT_EQ(map_name_of({{0, {0.1, 0.2, 0.3}}}), "");
-}
-
-TEST(Look, TheFirstRampIsEditedAndStaysInRange) {
-    view::TransferFunction tf = view::default_transfer_function();
-    tf.opacity_pins = {view::Flat{0.1}, view::Ramp{0, 0, 1, 1}, view::Ramp{0.1, 0, 1, 1}};
-    set_ramp(tf, {0.9, -1, 0.4, 2});
-    ASSERT_NE(ramp_of(tf), nullptr);
-    EXPECT_EQ(ramp_of(tf)->x0, 0.9);
-    EXPECT_GT(ramp_of(tf)->x1, 0.9);
-    EXPECT_EQ(ramp_of(tf)->a0, 0);
-    EXPECT_EQ(ramp_of(tf)->a1, 1);
-    EXPECT_EQ(std::get<view::Ramp>(tf.opacity_pins[2]), (view::Ramp{0.1, 0, 1, 1}));
-    const auto before = tf;
-    set_ramp(tf, {std::numeric_limits<double>::quiet_NaN(), 0, 1, 1});
-    EXPECT_EQ(tf, before);
-    for (const double x : {-5.0, 0.0, 0.5, 1.0, 7.0}) {
-        set_ramp(tf, {x, 0, x, 1});
-        EXPECT_TRUE(view::validate(tf)) << x;
-    }
-
-    tf.opacity_pins.clear();
-    EXPECT_EQ(ramp_of(tf), nullptr);
-    set_ramp(tf, {0.2, 0, 0.8, 0.5});
-    EXPECT_EQ(*ramp_of(tf), (view::Ramp{0.2, 0, 0.8, 0.5}));
 }
 
 }  // namespace

@@ -16,15 +16,16 @@
 #include "common/image/png.h"
 #include "tests/support/window_driver.h"
 
-namespace shearwater {
+namespace shearwater::window_test {
 
 using namespace std::chrono_literals;
 using test::Picture;
 
-inline constexpr int width = 960, height = 640;
+constexpr int panel_width = 304, dock_height = 224, status_height = 26;
+constexpr int width = 960, height = 640 + dock_height;
 // Where the picture is, clear of the panel, the status line, the axes and the notices at the top.
-inline constexpr int left = 96, right = 640, top = 64, bottom = 600;
-inline constexpr int middle_x = (960 - 304) / 2, middle_y = (640 - 26) / 2;
+constexpr int left = 96, right = 640, top = 64, bottom = 600;
+constexpr int middle_x = (width - panel_width) / 2, middle_y = (height - dock_height - status_height) / 2;
 
 inline std::string program(const std::string& name) {
     return std::string(SHEARWATER_BIN) + "/" + name;
@@ -90,6 +91,29 @@ inline bool same_picture(const Picture& a, const Picture& b) {
     return true;
 }
 
+// What the dot in the status line says of the picture.
+enum class Mark { none, lesser, refining, best };
+
+inline Mark mark_of(const Picture& screen) {
+    const std::pair<image::Rgba8, Mark> marks[] = {{{84, 90, 102, 255}, Mark::lesser},
+                                                   {{240, 180, 80, 255}, Mark::refining},
+                                                   {{88, 196, 128, 255}, Mark::best}};
+    for (int y = height - 20; y < height - 6; ++y) {
+        for (int x = 480; x < 656; ++x) {
+            for (const auto& [colour, mark] : marks) {
+                bool is_dot = true;  // letters have no such middles
+                for (int i = 0; i < 9; ++i) {
+                    is_dot = is_dot && screen.at(x - 1 + i % 3, y - 1 + i / 3) == colour;
+                }
+                if (is_dot) {
+                    return mark;
+                }
+            }
+        }
+    }
+    return Mark::none;
+}
+
 // A port that was free a moment ago.
 inline int free_port() {
     const int s = socket(AF_INET, SOCK_STREAM, 0);
@@ -121,6 +145,7 @@ class WindowTest : public testing::Test {
         // Graphics drivers keep what they allocate: leaks are looked for in every other test.
         return {{"SHEARWATER_SECRET", secret_},
                 {"DISPLAY", display_->name()},
+                {"XDG_CONFIG_HOME", (folder_ / "config").string()},
                 {"ASAN_OPTIONS", "detect_leaks=0"},
                 {"LIBGL_ALWAYS_SOFTWARE", "1"}};
     }
@@ -139,7 +164,9 @@ class WindowTest : public testing::Test {
                                          "--size",
                                          std::to_string(width) + "x" + std::to_string(height),
                                          "--scale",
-                                         "1"};
+                                         "1",
+                                         "--controls",
+                                         (folder_ / "controls").string()};
         command.insert(command.end(), more.begin(), more.end());
         return command;
     }
@@ -170,41 +197,6 @@ class WindowTest : public testing::Test {
         }
         return last;
     }
-    // Where the controls are of a window opened with --controls.
-    std::vector<std::string> with_controls() const { return {"--controls", (folder_ / "controls").string()}; }
-    struct Control {
-        int x, y;  // its middle
-    };
-    std::optional<Control> control(const std::string& name) const {
-        std::istringstream lines(text_of(folder_ / "controls"));
-        std::string found;
-        int x = 0, y = 0, wide = 0, high = 0;
-        while (std::getline(lines, found)) {
-            const std::size_t end =
-                found.rfind(' ', found.rfind(' ', found.rfind(' ', found.rfind(' ') - 1) - 1) - 1);
-            if (found.substr(0, end) == name) {
-                std::istringstream(found.substr(end)) >> x >> y >> wide >> high;
-                return Control{x + wide / 2, y + high / 2};
-            }
-        }
-        return std::nullopt;
-    }
-    // Waits until it is there, and clicks on it.
-    void click(const std::string& name) {
-        ASSERT_TRUE(wait_for([&] { return control(name).has_value(); })) << name << " is not to be seen";
-        const Control at = *control(name);
-        display_->click(at.x, at.y);
-    }
-    static bool wait_for(const std::function<bool()>& holds) {
-        const auto end = std::chrono::steady_clock::now() + 60s;
-        while (!holds()) {
-            if (std::chrono::steady_clock::now() > end) {
-                return false;
-            }
-            std::this_thread::sleep_for(30ms);
-        }
-        return true;
-    }
     Picture lit(const char* what) {
         return settled([](const Picture& p) { return light_of(p).sum > 1e5; }, what);
     }
@@ -216,6 +208,71 @@ class WindowTest : public testing::Test {
         return settled([&](const Picture& p) { return difference(p, before) < 0.0005; }, what);
     }
 
+    // The middle of a control, once there is one of that name; it is given time to come to rest.
+    std::pair<int, int> control(const std::string& name) {
+        const auto end = std::chrono::steady_clock::now() + 60s;
+        do {
+            std::this_thread::sleep_for(300ms);
+            std::ifstream file(folder_ / "controls");
+            for (std::string line; std::getline(file, line);) {
+                // Names may have blanks in them, the four numbers behind have none.
+                std::istringstream numbers(line.substr(std::min(line.size(), name.size() + 1)));
+                int x = 0, y = 0, w = 0, h = 0;
+                if (line.starts_with(name + " ") && numbers >> x >> y >> w >> h && numbers.peek() == EOF) {
+                    return {x + w / 2, y + h / 2};
+                }
+            }
+        } while (std::chrono::steady_clock::now() < end);
+        ADD_FAILURE() << "there is no " << name << " among\n" << text_of(folder_ / "controls");
+        return {1, 1};
+    }
+    bool has_control(const std::string& name) const {
+        return ("\n" + text_of(folder_ / "controls")).find("\n" + name + " ") != std::string::npos;
+    }
+    void click(const std::string& name, int times = 1) {
+        const auto [x, y] = control(name);
+        display_->click(x, y, times);
+    }
+    void drag(const std::string& name, int dx, int dy, const std::string& held_key = "") {
+        const auto [x, y] = control(name);
+        display_->drag(1, x, y, dx, dy, held_key);
+    }
+    static bool wait_for(const std::function<bool()>& holds) {
+        const auto end = std::chrono::steady_clock::now() + 60s;
+        while (!holds()) {
+            if (std::chrono::steady_clock::now() > end) {
+                return false;
+            }
+            std::this_thread::sleep_for(30ms);
+        }
+        return true;
+    }
+    // What closes with this, or is hidden.
+    void gone(const std::string& name) {
+        const auto end = std::chrono::steady_clock::now() + 60s;
+        while (has_control(name)) {
+            std::this_thread::sleep_for(50ms);
+            ASSERT_LT(std::chrono::steady_clock::now(), end) << name << " stays";
+        }
+    }
+    // What closes the menu that it is in.
+    void pick(const std::string& name) {
+        click(name);
+        gone(name);
+    }
+    // In a combo.
+    void choose(const std::string& name, const std::string& entry) {
+        click(name);
+        pick(name + "/" + entry);
+    }
+    // Into a field, instead of what it holds.
+    void enter(const std::string& name, const std::string& text) {
+        click(name);
+        display_->key("ctrl+a");
+        display_->type(text);
+        display_->key("Return");
+    }
+
     std::string secret_ = "window-test-secret-0123456789";
     test::TemporaryFolder folder_;
     int port_ = free_port();
@@ -223,4 +280,4 @@ class WindowTest : public testing::Test {
     std::unique_ptr<test::Process> tree_, window_;
 };
 
-}  // namespace shearwater
+}  // namespace shearwater::window_test

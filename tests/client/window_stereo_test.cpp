@@ -2,7 +2,7 @@
 
 #include "tests/client/window_fixture.h"
 
-namespace shearwater {
+namespace shearwater::window_test {
 namespace {
 
 struct Place {
@@ -13,7 +13,7 @@ class WindowStereoTest : public WindowTest {
   protected:
     void open() {
         start_tree();
-        open_window({"--controls", file_.string()});
+        open_window();
     }
     std::optional<Place> place_of(const std::string& name) const {
         std::ifstream lines(file_);
@@ -116,4 +116,4 @@ TEST_F(WindowStereoTest, PairsAreShownAsTheSectionSays) {
 }
 
 }  // namespace
-}  // namespace shearwater
+}  // namespace shearwater::window_test

@@ -1,50 +1,9 @@
-// A real window under a virtual display, on a real tree, driven by synthetic mouse and keys.
+// A real window: the picture, the camera, the link and what goes wrong.
 
 #include "tests/client/window_fixture.h"
 
-namespace shearwater {
+namespace shearwater::window_test {
 namespace {
-
-// The middle of the left-most white disc in the panel's plot.
-std::optional<std::pair<int, int>> ramp_handle(const Picture& screen) {
-    for (int x = 676; x < 900; ++x) {
-        for (int y = 310; y < 600; ++y) {
-            bool is_disc = true;
-            for (int dy = -1; dy <= 2; ++dy) {
-                for (int dx = -1; dx <= 2; ++dx) {
-                    is_disc = is_disc && brightness(screen.at(x + dx, y + dy)) > 600;
-                }
-            }
-            if (is_disc) {
-                return std::pair{x, y};
-            }
-        }
-    }
-    return std::nullopt;
-}
-
-// What the dot in the status line says of the picture.
-enum class Mark { none, lesser, refining, best };
-
-Mark mark_of(const Picture& screen) {
-    const std::pair<image::Rgba8, Mark> marks[] = {{{84, 90, 102, 255}, Mark::lesser},
-                                                   {{240, 180, 80, 255}, Mark::refining},
-                                                   {{88, 196, 128, 255}, Mark::best}};
-    for (int y = height - 20; y < height - 6; ++y) {
-        for (int x = 480; x < 656; ++x) {
-            for (const auto& [colour, mark] : marks) {
-                bool is_dot = true;  // letters have no such middles
-                for (int i = 0; i < 9; ++i) {
-                    is_dot = is_dot && screen.at(x - 1 + i % 3, y - 1 + i / 3) == colour;
-                }
-                if (is_dot) {
-                    return mark;
-                }
-            }
-        }
-    }
-    return Mark::none;
-}
 
 TEST_F(WindowTest, MouseAndKeysChangeThePicture) {
     start_tree();
@@ -86,9 +45,7 @@ TEST_F(WindowTest, MouseAndKeysChangeThePicture) {
 // Of this cube every sample counts, so that a high picture takes a while on any machine.
 TEST_F(WindowTest, QualityFollowsTheCamera) {
     start_tree("synthetic:random:128");
-    std::vector<std::string> options = with_controls();
-    options.insert(options.end(), {"--target-rate", "60"});
-    open_window(options);
+    open_window({"--target-rate", "60"});
     const auto is_best = [](const Picture& p) { return mark_of(p) == Mark::best; };
     const Picture first = settled(is_best, "the first picture, refined");
     EXPECT_GT(light_of(first).sum, 1e5);
@@ -128,10 +85,8 @@ TEST_F(WindowTest, ColoursAndOpacityChangeThePicture) {
     display_->key("i");
     like(inferno, "inferno again");
 
-    // The ramp's lower end, the handle further to the left, is moved to the right.
-    const auto handle = ramp_handle(inferno);
-    ASSERT_TRUE(handle) << "the ramp has no handle";
-    display_->drag(1, handle->first, handle->second, 90, 0);
+    // The ramp's lower end is moved to the right.
+    drag("editor/handle/low", 90, 0);
     const Picture thinner = other_than(inferno, "the ramp's lower end moved");
     EXPECT_LT(light_of(thinner).sum, light_of(inferno).sum);
 }
@@ -195,4 +150,4 @@ TEST_F(WindowTest, MistakesEndWithTwoAndOneLine) {
 }
 
 }  // namespace
-}  // namespace shearwater
+}  // namespace shearwater::window_test

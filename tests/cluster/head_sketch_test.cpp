@@ -183,6 +183,48 @@ TEST_F(HeadSketchTest, DescribesTheCubeByItsSketchAndThenByItself) {
     EXPECT_GT(described_[2].mapping().hi(), 4);
 }
 
+TEST_F(HeadSketchTest, TellsOfTheValuesAsSoonAsTheyAreCounted) {
+    start();
+    sketch_all();
+    ASSERT_THAT(described_, SizeIs(2));
+    const auto first = wire::summary_from(described_[0].values());
+    ASSERT_TRUE(first);
+    EXPECT_TRUE(described_[0].values().provisional());
+    EXPECT_EQ(first->min, 1);
+    EXPECT_EQ(first->max, 3);
+    count_all();
+    const auto whole = wire::summary_from(described_[2].values());
+    ASSERT_TRUE(whole);
+    EXPECT_FALSE(described_[2].values().provisional());
+    EXPECT_EQ(whole->min, 0);
+    EXPECT_EQ(whole->max, 5);
+    EXPECT_EQ(whole->median, 2);
+    // A daemon that comes back counts again: that is no news. A client that comes is told all at once.
+    count_all();
+    EXPECT_THAT(described_, SizeIs(4));
+    up(wire::LinkId{wire::first_accepted + 102}, pb::ROLE_CLIENT);
+    ASSERT_THAT(described_, SizeIs(5));
+    EXPECT_EQ(wire::summary_from(described_[4].values()).value(), *whole);
+}
+
+// They need not wait for counts to load; what is counted meanwhile is told afterwards, by the limits given.
+TEST_F(HeadSketchTest, TellsOfTheValuesWhenLimitsAreGivenToo) {
+    start({.range = volume::Limits{.lo = 1, .hi = 9}});
+    ASSERT_THAT(described_, SizeIs(2));
+    EXPECT_FALSE(described_[0].has_values());
+    sketch_all();
+    ASSERT_THAT(described_, SizeIs(4));
+    EXPECT_TRUE(described_[2].values().provisional());
+    EXPECT_FALSE(described_[2].provisional()) << "the limits stay";
+    count_all();
+    ASSERT_THAT(described_, SizeIs(6));
+    const auto whole = wire::summary_from(described_[4].values());
+    ASSERT_TRUE(whole);
+    EXPECT_FALSE(described_[4].values().provisional());
+    EXPECT_EQ(described_[4].mapping().hi(), 9);
+    EXPECT_EQ(whole->below, 1U) << "the 0";
+}
+
 TEST_F(HeadSketchTest, IsDrawnUntilTheCubeIsAndThenUnaskedTheCube) {
     start();
     ask(true);

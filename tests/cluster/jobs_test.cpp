@@ -160,6 +160,23 @@ TEST_F(JobsTest, ASketchIsDrawnWhileALoadGoesOn) {
     EXPECT_EQ(loaded->status.error().code, base::Code::cancelled);
 }
 
+// Where limits were given there is one pass over the voxels, and it counts them too.
+TEST_F(JobsTest, ALoadCountsWhatACountWould) {
+    const leaf::Share share = share_of(write(0));
+    jobs_.perform(leaf::Count{1, share, 0});
+    const auto counted = next<leaf::Counted>();
+    ASSERT_TRUE(counted && counted->histogram);
+    jobs_.perform(leaf::Load{2, share, {.lo = 0, .hi = 250}, 0, true});
+    const auto loaded = next<leaf::Loaded>();
+    ASSERT_TRUE(loaded && loaded->status && loaded->histogram);
+    EXPECT_EQ(loaded->histogram->filled(), counted->histogram->filled());
+    EXPECT_EQ(loaded->histogram->blank(), counted->histogram->blank());
+    jobs_.perform(leaf::Load{3, share, {.lo = 0, .hi = 250}, 0, false});
+    const auto uncounted = next<leaf::Loaded>();
+    ASSERT_TRUE(uncounted && uncounted->status);
+    EXPECT_FALSE(uncounted->histogram);
+}
+
 TEST_F(JobsTest, WhatIsToldToStopBeforeItBeginsReadsNothing) {
     const leaf::Share share = share_of(write(0));
     jobs_.perform(leaf::Load{1, share_of(scratch_.path("nowhere.fits")), {}, 0});  // keeps the thread

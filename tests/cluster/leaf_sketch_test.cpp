@@ -215,6 +215,25 @@ TEST_F(LeafSketchTest, FramesOfTheCubeAreGivenUpWhenItIsLoadedByOtherLimits) {
     EXPECT_THAT(draws_, SizeIs(2));
 }
 
+TEST_F(LeafSketchTest, ALoadByGivenLimitsTellsWhatItCountedOnTheWay) {
+    pb::Assign with_limits = order(1);
+    *with_limits.mutable_mapping() = wire::to_wire(by_cube);
+    assign(with_limits);
+    adopt();
+    ASSERT_THAT(loads_, SizeIs(1));
+    EXPECT_THAT(counts_, SizeIs(0));
+    EXPECT_TRUE(loads_[0].count);
+    tell(Loaded{loads_[0].job, {}, histogram()});
+    EXPECT_EQ(leaf_.phase(), pb::PHASE_READY);
+    EXPECT_THAT(reports_, ElementsAre(false));
+    // By other limits nothing is counted once more.
+    pb::SetMapping other;
+    *other.mutable_mapping() = wire::to_wire(by_sketch);
+    receive(parent_, other);
+    ASSERT_THAT(loads_, SizeIs(2));
+    EXPECT_FALSE(loads_[1].count);
+}
+
 TEST_F(LeafSketchTest, OfAStoppedJobIsIgnored) {
     assign(order(1));
     adopt();

@@ -177,6 +177,43 @@ TEST(Family, CombinedCodesAreTheGreatestBelow) {
     }
 }
 
+// It multiplies all extinctions alike, so that no function is another one for it.
+TEST(Family, DensityMultipliesRatesAndNeedsNoOtherFunction) {
+    view::TransferFunction tf{
+        .opacity_pins = {view::Hat{0.2, 0, 0.2, 0.9}}, .colour_pins = {{0, {1, 1, 1}}}, .background = {}};
+    view::TransferFunction dense = tf;
+    dense.density = 3;
+    EXPECT_EQ(members_of(dense), members_of(tf));
+    const BlockGrid grid({161, 161, 161});
+    FunctionStore store(grid, DirectionGrid(4));
+    const auto table = std::make_shared<FunctionTable>(FunctionTable{{{}, grid.counts()}, 4, {}});
+    table->codes.assign(grid.size() * 8, 200);
+    const auto put = [&](const Member& member) {
+        store.put({Footprint::column, member.basis, rung_below(member.height).value(), 0}, table);
+    };
+    put(members_of(tf)[0]);
+    const auto thin = store.rates(tf, Footprint::column, 0).rate;
+    const auto thick = store.rates(dense, Footprint::column, 0).rate;
+    for (std::size_t code = 0; code < thin.size(); ++code) {
+        EXPECT_FLOAT_EQ(thick[code], 3 * thin[code]);
+    }
+    // And of several pins together.
+    for (view::TransferFunction* of : {&tf, &dense}) {
+        of->opacity_pins.emplace_back(view::Hat{0.6, 0, 0.2, 0.01});
+    }
+    put(members_of(tf)[1]);
+    base::Workers workers(1);
+    const auto rate_with = [&](const view::TransferFunction& by) {
+        const std::vector cells{0};
+        const BlockRates rates = store.rates(by, Footprint::column, 0);
+        return rates.rate[rates.of(cells, workers)[0][0]];
+    };
+    const auto wanted = static_cast<float>(rate_of(200) * (0.9 + 0.01));
+    EXPECT_LE(rate_with(tf), wanted);
+    EXPECT_LE(rate_with(dense), 3 * wanted);
+    EXPECT_GT(rate_with(dense), 2.5F * rate_with(tf));
+}
+
 // The bound, at every value and for every height: rungs below a height, and sums of pins apart below the
 // transfer function.
 TEST(Family, IsBelowTheTransferFunction) {

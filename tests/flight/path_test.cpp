@@ -15,7 +15,7 @@ const view::Lattice lattice{.n = {40, 50, 60}};
 Key key(double time, double azimuth, double distance = 100) {
     Key made;
     made.time = time;
-    made.orbit = {.azimuth = azimuth, .elevation = 0, .distance = distance, .target = {}};
+    made.viewpoint.orbit = {.azimuth = azimuth, .elevation = 0, .distance = distance, .target = {}};
     return made;
 }
 
@@ -32,19 +32,12 @@ double distance_of(const Shot& shot) {
 TEST(Flight, PassesThroughItsKeysExactly) {
     Path path;
     path.keys = {key(0, 10, 300), key(1.2, 40, 0), key(3, -20, 77)};
-    path.keys[1].fov = 50;
-    path.keys[2].projection = view::Projection::parallel;
+    path.keys[1].viewpoint.fov = 50;
+    path.keys[2].viewpoint.projection = view::Projection::parallel;
     ASSERT_TRUE(validate(path));
     for (const Key& k : path.keys) {
         const Shot shot = shot_at(path, k.time, lattice);
-        const double distance =
-            k.orbit.distance > 0 ? k.orbit.distance : lattice.diagonal() / 2 / std::sin(k.fov * M_PI / 360);
-        EXPECT_EQ(shot.camera, view::camera_on({.azimuth = k.orbit.azimuth,
-                                                .elevation = k.orbit.elevation,
-                                                .distance = distance,
-                                                .target = k.orbit.target},
-                                               lattice, k.projection, k.fov,
-                                               2 * distance * std::sin(k.fov / 2 * M_PI / 180)));
+        EXPECT_EQ(shot.camera, view::camera(k.viewpoint, lattice));
         EXPECT_EQ(shot.tf, k.tf);
     }
 }
@@ -71,11 +64,12 @@ TEST(Flight, IsSmoothAndNeverGoesBeyondItsKeys) {
             time += within(0.2, 3);
         }
         if (trial % 3 == 0) {
-            path.keys[3].orbit.azimuth = path.keys[2].orbit.azimuth;
+            path.keys[3].viewpoint.orbit.azimuth = path.keys[2].viewpoint.orbit.azimuth;
         }
         constexpr double step = 1e-7;
         for (std::size_t k = 0; k + 1 < path.keys.size(); ++k) {
-            const double a = path.keys[k].orbit.azimuth, b = path.keys[k + 1].orbit.azimuth;
+            const double a = path.keys[k].viewpoint.orbit.azimuth,
+                         b = path.keys[k + 1].viewpoint.orbit.azimuth;
             for (int i = 0; i <= 40; ++i) {
                 const double t = path.keys[k].time + (path.keys[k + 1].time - path.keys[k].time) * i / 40;
                 const double at = azimuth_of(shot_at(path, t, lattice));
@@ -121,10 +115,10 @@ TEST(Flight, RefusesWhatCannotBeFlown) {
     EXPECT_TRUE(refuses([](Path& path) { path.keys[1].time = 0; }));
     EXPECT_TRUE(refuses([](Path& path) { path.keys[1].time = 1e6; }));
     EXPECT_TRUE(refuses([](Path& path) { path.keys[1].time = NAN; }));
-    EXPECT_TRUE(refuses([](Path& path) { path.keys[1].orbit.azimuth = INFINITY; }));
-    EXPECT_TRUE(refuses([](Path& path) { path.keys[1].orbit.elevation = 91; }));
-    EXPECT_TRUE(refuses([](Path& path) { path.keys[1].orbit.distance = -1; }));
-    EXPECT_TRUE(refuses([](Path& path) { path.keys[1].fov = 180; }));
+    EXPECT_TRUE(refuses([](Path& path) { path.keys[1].viewpoint.orbit.azimuth = INFINITY; }));
+    EXPECT_TRUE(refuses([](Path& path) { path.keys[1].viewpoint.orbit.elevation = 91; }));
+    EXPECT_TRUE(refuses([](Path& path) { path.keys[1].viewpoint.orbit.distance = -1; }));
+    EXPECT_TRUE(refuses([](Path& path) { path.keys[1].viewpoint.fov = 180; }));
     EXPECT_TRUE(refuses([](Path& path) { path.keys[1].tf.colour_pins.clear(); }));
     EXPECT_TRUE(refuses([](Path& path) {
         path.cubes.resize(1);

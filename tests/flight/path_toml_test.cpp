@@ -60,13 +60,13 @@ TEST(FlightFile, IsReadAndInheritsFromKeyToKey) {
     EXPECT_EQ(path->cubes[1].path, "/there/b.fits");
     EXPECT_EQ(path->cubes[1].range, (std::vector<double>{0.5, 3}));
     ASSERT_EQ(path->keys.size(), 2U);
-    EXPECT_EQ(path->keys[0].orbit.elevation, view::Orbit{}.elevation);
+    EXPECT_EQ(path->keys[0].viewpoint.orbit.elevation, view::Orbit{}.elevation);
     const Key& last = path->keys[1];
     EXPECT_EQ(last.cube, 1U);
-    EXPECT_EQ(last.orbit.azimuth, 370);
-    EXPECT_EQ(last.orbit.distance, 200.5) << "as before";
-    EXPECT_EQ(last.orbit.target, view::Vec3(1, 2, 3));
-    EXPECT_EQ(last.projection, view::Projection::parallel);
+    EXPECT_EQ(last.viewpoint.orbit.azimuth, 370);
+    EXPECT_EQ(last.viewpoint.orbit.distance, 200.5) << "as before";
+    EXPECT_EQ(last.viewpoint.orbit.target, view::Vec3(1, 2, 3));
+    EXPECT_EQ(last.viewpoint.projection, view::Projection::parallel);
     EXPECT_EQ(last.tf, path->keys[0].tf);
     EXPECT_EQ(last.tf.opacity_pins, (std::vector<view::OpacityPin>{view::Flat{0.25}}));
 }
@@ -78,7 +78,7 @@ TEST(FlightFile, ReadsBackAsWritten) {
     const auto again = path_from_toml(text, "again", "");
     ASSERT_TRUE(again) << again.error().message() << "\n" << text;
     EXPECT_EQ(to_toml(*again), text);
-    EXPECT_EQ(again->keys[1].orbit.target, path->keys[1].orbit.target);
+    EXPECT_EQ(again->keys[1].viewpoint.orbit.target, path->keys[1].viewpoint.orbit.target);
     EXPECT_EQ(again->keys[1].tf, path->keys[1].tf);
     EXPECT_EQ(again->cubes[1].range, path->cubes[1].range);
 }

@@ -33,6 +33,9 @@ Scene example() {
     scene.culling = {culling::Kind::opof_linear, 0.75};
     scene.quality = view::Quality::draft;
     scene.target_rate = 33;
+    scene.crop = volume::Box{{1, 0, 3}, {10, 20, 30}};
+    scene.stereo =
+        Pair{{.separation = 0.1 + 0.2, .convergence = 70, .swap = true}, image::StereoMode::anaglyph};
     return scene;
 }
 

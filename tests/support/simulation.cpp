@@ -4,6 +4,7 @@
 
 #include "common/image/over_windows.h"
 #include "common/volume/interpolate.h"
+#include "common/volume/counting_source.h"
 #include "common/volume/statistics.h"
 #include "protocol/wire/picture.h"
 #include "renderer/culling/culler.h"
@@ -156,10 +157,13 @@ struct Simulation::Renderer final : Simulation::Daemon {
                                volume::count_values(sim.source_, share.box, share.lattice.n, sim.workers_)});
         } else if (const auto* load = std::get_if<leaf::Load>(&effect)) {
             make_sketch(load->job, load->share, load->sketch_level);
-            auto loaded = shear::BrickVolume::load(sim.source_, load->share.box, load->share.lattice.n,
-                                                   load->mapping, sim.workers_);
+            const auto& n = load->share.lattice.n;
+            volume::CountingSource counting(sim.source_, load->share.box, n);
+            auto loaded =
+                shear::BrickVolume::load(counting, load->share.box, n, load->mapping, sim.workers_);
             bricks = *std::move(loaded);
-            tell(leaf::Loaded{load->job, {}});
+            tell(leaf::Loaded{load->job, {},
+                              load->count ? std::optional(counting.histogram()) : std::nullopt});
         } else if (const auto* ray = std::get_if<leaf::SampleRay>(&effect)) {
             wire::RayPart part{ray->number, {}, !bricks};
             if (bricks) {

@@ -205,9 +205,9 @@ void Display::release(int button) {
     park();
 }
 
-void Display::click(int x, int y, int times) {
+void Display::click(int x, int y, int times, int button) {
     xdotool({"mousemove", std::to_string(x), std::to_string(y), "sleep", "0.1", "click", "--repeat",
-             std::to_string(times), "--delay", "120", "1"});
+             std::to_string(times), "--delay", "120", std::to_string(button)});
     park();
 }
 

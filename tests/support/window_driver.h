@@ -58,7 +58,7 @@ class Display {
     void hold(const std::string& key, std::chrono::milliseconds time);
     // Presses `button` at (x, y), moves by (dx, dy) in steps and lets go.
     void drag(int button, int x, int y, int dx, int dy, const std::string& held_key = "");
-    void click(int x, int y, int times = 1);
+    void click(int x, int y, int times = 1, int button = 1);
     void wheel(int x, int y, int notches);  // upwards when positive
     // A drag by parts: presses at (x, y), moves to others, lets go.
     void press(int button, int x, int y);

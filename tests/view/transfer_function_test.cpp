@@ -1,4 +1,4 @@
-#include "common/view/transfer_function.h"
+#include "common/view/anchored_function.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,8 +17,17 @@ TransferFunction with(std::vector<OpacityPin> pins) {
     return tf;
 }
 
+base::Result<TransferFunction> read_toml(std::string_view text, std::string_view source) {
+    const auto function = transfer_function_from_toml(text, source);
+    return function ? on_scale(*function, nullptr) : function.error();
+}
+
+std::string toml_of(const TransferFunction& tf) {
+    return to_toml({.tf = tf});
+}
+
 std::string fault_of(std::string_view toml) {
-    const auto tf = transfer_function_from_toml(toml, "t.toml");
+    const auto tf = read_toml(toml, "t.toml");
     return tf ? "accepted" : tf.error().message();
 }
 
@@ -166,8 +175,47 @@ TEST(Validation, RefusesWhatIsOutOfRange) {
     }
 }
 
+TEST(Opacity, AHatLeansWithinItsBase) {
+    const auto tf = with({Hat{0.5, 0.1, 0.4, 0.8, 0.1}});  // feet at 0.3 and 0.7, shoulders at 0.55 and 0.65
+    EXPECT_DOUBLE_EQ(tf.opacity(0.3), 0);
+    EXPECT_NEAR(tf.opacity(0.425), 0.4, 1e-12);
+    EXPECT_DOUBLE_EQ(tf.opacity(0.56), 0.8);
+    EXPECT_DOUBLE_EQ(tf.opacity(0.64), 0.8);
+    EXPECT_NEAR(tf.opacity(0.675), 0.4, 1e-12);
+    EXPECT_DOUBLE_EQ(tf.opacity(0.701), 0);
+    // Upright on one side, as far as it can lean.
+    const auto most = with({Hat{0.5, 0, 0.4, 0.8, -0.2}});
+    EXPECT_TRUE(validate(most));
+    EXPECT_DOUBLE_EQ(most.opacity(0.299), 0);
+    EXPECT_NEAR(most.opacity(0.301), 0.798, 1e-12);
+    EXPECT_FALSE(validate(with({Hat{0.5, 0, 0.4, 0.8, -0.21}})));
+    EXPECT_FALSE(validate(with({Hat{0.5, 0, 0.4, 0.8, std::numeric_limits<double>::quiet_NaN()}})));
+}
+
+TEST(Opacity, DensityMultipliesTheExtinction) {
+    auto tf = with({Ramp{0, 0, 1, 0.9}, Blank{0.5, 0.6}});
+    auto dense = tf;
+    for (const double k : {0.001, 0.3, 1.0, 2.0, 1000.0}) {
+        dense.density = k;
+        ASSERT_TRUE(validate(dense));
+        for (const double s : {0.0, 0.2, 0.55, 0.8, 1.0}) {
+            EXPECT_NEAR(dense.extinction(s), std::min(k * tf.extinction(s), TransferFunction::opaque), 1e-9);
+            EXPECT_NEAR(dense.opacity(s), 1 - std::pow(1 - tf.opacity(s), k), 1e-12);
+            EXPECT_EQ(dense.height(s), tf.opacity(s));
+        }
+    }
+    dense = with({Flat{1}});
+    dense.density = 0.001;
+    EXPECT_EQ(dense.opacity(0.5), 1);
+    EXPECT_EQ(dense.extinction(0.5), TransferFunction::opaque);
+    for (const double k : {0.0, -1.0, 1e4, std::numeric_limits<double>::quiet_NaN()}) {
+        dense.density = k;
+        EXPECT_FALSE(validate(dense)) << k;
+    }
+}
+
 TEST(Toml, ReadsEveryKind) {
-    const auto read = transfer_function_from_toml(R"(
+    const auto read = read_toml(R"(
 background = [255, 51, 0]
 [[colour]]
 at = 0
@@ -195,7 +243,7 @@ kind = "blank"
 lo = 0.25
 hi = 0.5
 )",
-                                                  "t.toml");
+                                "t.toml");
     ASSERT_TRUE(read) << read.error().message();
     EXPECT_EQ(*read, (TransferFunction{.opacity_pins = {Ramp{0.2, 0, 1, 0.5}, Hat{0.6, 0.1, 0.3, 0.4},
                                                         Flat{0.001}, Blank{0.25, 0.5}},
@@ -204,9 +252,8 @@ hi = 0.5
 }
 
 TEST(Toml, NamesAMapAndDefaultsToInferno) {
-    EXPECT_EQ(transfer_function_from_toml("colourmap = \"turbo-r\"", "t").value().colour_pins,
-              colour_map("turbo-r").value());
-    EXPECT_EQ(transfer_function_from_toml("", "t").value().colour_pins, colour_map("inferno").value());
+    EXPECT_EQ(read_toml("colourmap = \"turbo-r\"", "t").value().colour_pins, colour_map("turbo-r").value());
+    EXPECT_EQ(read_toml("", "t").value().colour_pins, colour_map("inferno").value());
 }
 
 TEST(Toml, WritesWhatItReadsBack) {
@@ -220,9 +267,12 @@ TEST(Toml, WritesWhatItReadsBack) {
                            Blank{x / 3, x}};
         tf.colour_pins = {{0, {share(random), 0, 1}}, {x, {1.0 / 255, share(random), 17.0 / 255}}};
         tf.background = {x, 0, 1};
-        const auto back = transfer_function_from_toml(to_toml(tf), "t");
-        ASSERT_TRUE(back) << back.error().message() << "\n" << to_toml(tf);
-        ASSERT_EQ(back->opacity_pins, tf.opacity_pins) << to_toml(tf);
+        tf.density = 0.1 + x;
+        std::get<Hat>(tf.opacity_pins[1]).lean = (x / 2) * (2 * share(random) - 1);
+        const auto back = read_toml(toml_of(tf), "t");
+        ASSERT_TRUE(back) << back.error().message() << "\n" << toml_of(tf);
+        ASSERT_EQ(back->opacity_pins, tf.opacity_pins) << toml_of(tf);
+        ASSERT_EQ(back->density, tf.density);
         for (std::size_t i = 0; i < 2; ++i) {  // channels are written times 255
             EXPECT_EQ(back->colour_pins[i].at, tf.colour_pins[i].at);
             EXPECT_NEAR(back->colour_pins[i].rgb.g, tf.colour_pins[i].rgb.g, 1e-15);
@@ -231,8 +281,8 @@ TEST(Toml, WritesWhatItReadsBack) {
     for (const std::string& name : colour_map_names()) {
         TransferFunction tf = default_transfer_function();
         tf.colour_pins = colour_map(name + "-r").value();
-        EXPECT_EQ(transfer_function_from_toml(to_toml(tf), "t").value(), tf) << name;
-        EXPECT_THAT(to_toml(tf), testing::HasSubstr("colourmap = \"" + name + "-r\"")) << name;
+        EXPECT_EQ(read_toml(toml_of(tf), "t").value(), tf) << name;
+        EXPECT_THAT(toml_of(tf), testing::HasSubstr("colourmap = \"" + name + "-r\"")) << name;
     }
 }
 
@@ -257,6 +307,12 @@ TEST(Toml, RefusesByName) {
     EXPECT_THAT(fault_of("opacity = [1, 2]"), HasSubstr("[[opacity]]"));
     EXPECT_THAT(fault_of("background = [0, 0, -1]"), HasSubstr("background"));
     EXPECT_THAT(fault_of("a = [[["), HasSubstr("line 1"));
+    EXPECT_THAT(fault_of("density = 0"), HasSubstr("density"));
+    EXPECT_THAT(fault_of("density = \"thick\""), HasSubstr("density"));
+    EXPECT_THAT(fault_of("scale = 3"), HasSubstr("[scale]"));
+    EXPECT_THAT(fault_of("[scale]\nunit = \"furlong\""), HasSubstr("percentile"));
+    EXPECT_THAT(fault_of("[scale]\nunits = \"sigma\""), HasSubstr("unknown key \"units\""));
+    EXPECT_THAT(fault_of("[scale]\nunit = \"sigma\""), HasSubstr("the cube is not known"));
 }
 
 TEST(Toml, HostileTextIsRefusedAndNeverCrashes) {
@@ -269,14 +325,14 @@ TEST(Toml, HostileTextIsRefusedAndNeverCrashes) {
     }
     EXPECT_THAT(fault_of(many), testing::HasSubstr("more than 256"));
 
-    const std::string good = to_toml(with({Ramp{}, Hat{}, Flat{}, Blank{}}));
+    const std::string good = toml_of(with({Ramp{}, Hat{}, Flat{}, Blank{}}));
     std::mt19937 random(11);
     for (int round = 0; round < 3000; ++round) {
         std::string text = good;
         for (int edit = 0; edit < 3; ++edit) {
             text[random() % text.size()] = static_cast<char>(random() % 256);
         }
-        const auto read = transfer_function_from_toml(text.substr(0, random() % text.size()), "fuzz");
+        const auto read = read_toml(text.substr(0, random() % text.size()), "fuzz");
         EXPECT_TRUE(!read || validate(*read));
     }
 }

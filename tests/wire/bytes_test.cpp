@@ -222,6 +222,39 @@ TEST(Bytes, OfPairsAndCrops) {
     EXPECT_EQ(body_of(message(pair)), "a00102");
 }
 
+// What the editor of transfer functions adds. A hat's lean and a density lie within the view's function; a
+// summary of values ends a description, its quantiles as a block of doubles.
+TEST(Bytes, OfWhatTheEditorShowsAndMakes) {
+    const std::vector<Message> editor = editor_examples();
+    const std::vector<Message> plain = examples();
+    const auto of = [&](const Message& changed) {
+        return body_of(*std::ranges::find(plain, changed.body.index(),
+                                          [](const Message& message) { return message.body.index(); }));
+    };
+    const std::string described = body_of(editor.at(0)), before = of(editor[0]);
+    EXPECT_EQ(described.substr(0, before.size()), before);
+    EXPECT_EQ(described.substr(before.size(), 124),
+              "f201fa3e"    // 30: 8058 bytes
+              "0a0301ac02"  // counts
+              "1002"
+              "1803"
+              "2004"                // below, above, blank
+              "2900000000000000c0"  // min, max, median, sigma
+              "310000000000001040"
+              "39000000000000e03f"
+              "41000000000000d03f"
+              "4ac83e"  // 1001 quantiles of 8 bytes, the first
+              "00000000000000c0");
+    EXPECT_EQ(described.size() - before.size(), 2 * (4 + 8058));
+    const std::string view = body_of(editor.at(1));
+    EXPECT_NE(view.find("21000000000000e83f"
+                        "f101000000000000b03f"),
+              std::string::npos)
+        << "height, lean";
+    EXPECT_NE(view.find("f1010000000000000040"), std::string::npos) << "density";
+    EXPECT_EQ(view.size(), of(editor[1]).size() + 2 * (10 + 10));
+}
+
 // And what pre-integrated classification does, of a view and of a factorisation.
 TEST(Bytes, OfPreIntegratedClassification) {
     constexpr std::size_t header_digits = 2 * header_bytes;

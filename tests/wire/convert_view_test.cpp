@@ -150,6 +150,11 @@ TEST(TransferFunctionConversion, ThereAndBack) {
     EXPECT_EQ(transfer_function_from(to_wire(transfer_function())).value(), transfer_function());
     EXPECT_EQ(transfer_function_from(to_wire(view::default_transfer_function())).value(),
               view::default_transfer_function());
+    view::TransferFunction more = transfer_function();
+    more.density = 2.5;
+    std::get<view::Hat>(more.opacity_pins[1]).lean = -0.03;
+    EXPECT_EQ(transfer_function_from(to_wire(more)).value(), more);
+    EXPECT_FALSE(to_wire(transfer_function()).has_density()) << "as before where there is none";
 }
 
 TEST(TransferFunctionConversion, Hostile) {
@@ -171,6 +176,12 @@ TEST(TransferFunctionConversion, Hostile) {
         refused("colour at", [&](auto& t) { t.mutable_colour_pins(1)->set_at(value); });
         refused("colour", [&](auto& t) { t.mutable_colour_pins(1)->mutable_colour()->set_g(value); });
         refused("background", [&](auto& t) { t.mutable_background()->set_b(value); });
+    }
+    for (const double value : {nan, inf, -inf, 0.0, -1.0, 1e9}) {
+        refused("density", [&](auto& t) { t.set_density(value); });
+    }
+    for (const double value : {nan, inf, -inf, 0.2, -0.2}) {
+        refused("hat lean", [&](auto& t) { t.mutable_opacity_pins(1)->mutable_hat()->set_lean(value); });
     }
     refused("opacity of 2", [](auto& t) { t.mutable_opacity_pins(2)->mutable_flat()->set_height(2); });
     refused("a pin of no kind", [](auto& t) { t.add_opacity_pins(); });

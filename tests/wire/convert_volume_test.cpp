@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "protocol/wire/convert.h"
+#include "tests/wire/examples.h"
 
 namespace shearwater::wire {
 namespace {
@@ -193,6 +194,49 @@ TEST(HistogramConversion, Hostile) {
         many.add_counts(1);
     }
     expect_invalid(histogram_from(many), "histogram.key_steps");
+}
+
+TEST(SummaryConversion, ThereAndBack) {
+    const volume::Summary summary = test::summary();
+    EXPECT_EQ(summary_from(to_wire(summary)).value(), summary);
+    EXPECT_TRUE(summary_from(pb::ValueSummary{}).value().empty()) << "of a cube that is blank";
+}
+
+TEST(SummaryConversion, ALargestOneKeepsItsLimit) {
+    volume::Summary summary = test::summary();
+    summary.counts.assign(volume::Summary::max_bins, std::uint64_t{1} << 52);
+    pb::CubeDescription description;
+    *description.mutable_values() = to_wire(summary);
+    ASSERT_TRUE(summary_from(description.values()));
+    EXPECT_LT(description.ByteSizeLong(), limit_of(type_of(message(description).body))->body / 8);
+}
+
+TEST(SummaryConversion, Hostile) {
+    const auto refused = [](const char* what, const auto& change) {
+        pb::ValueSummary summary = to_wire(test::summary());
+        change(summary);
+        const auto from = summary_from(summary);
+        ASSERT_FALSE(from) << what;
+        EXPECT_EQ(from.error().reason, pb::REASON_INVALID);
+        EXPECT_EQ(from.error().text.find("values: "), 0U) << from.error().text;
+    };
+    refused("bins", [](auto& s) { s.mutable_counts()->Resize(513, 1); });
+    refused("no bins", [](auto& s) { s.clear_counts(); });
+    refused("quantiles", [](auto& s) { s.add_quantiles(4); });
+    refused("no quantiles", [](auto& s) { s.clear_quantiles(); });
+    refused("counts", [](auto& s) { s.set_counts(0, ~std::uint64_t{0}); });
+    refused("below", [](auto& s) { s.set_below(std::uint64_t{1} << 63); });
+    refused("blank", [](auto& s) { s.set_blank(~std::uint64_t{0}); });
+    for (const double value : {nan, inf, -inf}) {
+        refused("min", [&](auto& s) { s.set_min(value); });
+        refused("max", [&](auto& s) { s.set_max(value); });
+        refused("median", [&](auto& s) { s.set_median(value); });
+        refused("sigma", [&](auto& s) { s.set_sigma(value); });
+        refused("quantile", [&](auto& s) { s.set_quantiles(500, value); });
+    }
+    refused("falling", [](auto& s) { s.set_quantiles(500, -2); });
+    refused("outside", [](auto& s) { s.set_quantiles(1000, 5); });
+    refused("a negative sigma", [](auto& s) { s.set_sigma(-0.1); });
 }
 
 }  // namespace

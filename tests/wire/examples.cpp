@@ -336,8 +336,20 @@ std::vector<Message> culling_examples() {
     return {message(drawn), message(cost, bytes({1, 0, 2, 0, 3, 0, 255, 255})), message(to_wire(view))};
 }
 
+std::vector<Message> editor_examples() {
+    pb::CubeDescription described = cube_description();
+    *described.mutable_values() = to_wire(summary());
+    View view = view_request();
+    view.tf.density = 2;
+    std::get<view::Hat>(view.tf.opacity_pins[1]).lean = 0.0625;
+    return {message(described), message(to_wire(view))};
+}
+
 std::vector<Message> all_examples() {
     std::vector<Message> all = examples();
+    for (Message& message : editor_examples()) {
+        all.push_back(std::move(message));
+    }
     for (Message& message : culling_examples()) {
         all.push_back(std::move(message));
     }
@@ -366,6 +378,22 @@ view::Factorisation factorisation() {
         {.axis = 2, .sign = 1, .width = 5, .height = 4, .origin = {-0.5, -0.25}, .pitch = {0.25, 0.125}},
         {.axis = 0, .sign = -1, .width = 3, .height = 2, .origin = {0.5, -1}, .pitch = {0.5, 0.5}}};
     return f;
+}
+
+volume::Summary summary() {
+    volume::Summary s{.counts = {1, 300},
+                      .below = 2,
+                      .above = 3,
+                      .blank = 4,
+                      .min = -2,
+                      .max = 4,
+                      .median = 0.5,
+                      .sigma = 0.25,
+                      .quantiles = {}};
+    for (std::size_t i = 0; i < volume::Summary::quantile_count; ++i) {
+        s.quantiles.push_back(-2 + 6 * volume::Summary::share_of(i));
+    }
+    return s;
 }
 
 culling::FunctionKey function_key() {

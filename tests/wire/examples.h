@@ -18,10 +18,13 @@ std::vector<Message> examples();
 std::vector<Message> sketch_examples();
 // And of those that have to do with culling.
 std::vector<Message> culling_examples();
+// And of those that have to do with what the editor of transfer functions shows and makes.
+std::vector<Message> editor_examples();
 std::vector<Message> all_examples();  // all of them
 
 view::TransferFunction transfer_function();
 view::Factorisation factorisation();  // of two faces, 5 x 4 and 3 x 2 pixels
+volume::Summary summary();
 culling::FunctionKey function_key();
 View view_request();
 PickRequest pick_request();

@@ -99,6 +99,10 @@ void convert(const Body& body) {
         if (const auto from = mapping_from(assign->mapping())) {
             EXPECT_LE(from->lo, from->hi);
         }
+    } else if (const auto* described = std::get_if<pb::CubeDescription>(&body)) {
+        if (const auto from = summary_from(described->values())) {
+            EXPECT_TRUE(volume::validate(*from));
+        }
     } else if (const auto* report = std::get_if<pb::HistogramReport>(&body)) {
         if (const auto from = histogram_from(*report)) {
             EXPECT_LE(from->min(), from->max());
