@@ -306,8 +306,25 @@ std::vector<Message> culling_examples() {
     return {message(drawn), message(cost, bytes({1, 0, 2, 0, 3, 0, 255, 255})), message(to_wire(view))};
 }
 
+std::vector<Message> stereo_examples() {
+    View view = view_request();
+    view.stereo = view::StereoSettings{1, 2, true};
+    view.crop = volume::Box{{1, 2, 3}, {40, 50, 60}};
+    view.camera.slant = {0.25, -0.5};
+    view::Factorisation cropped = factorisation();
+    cropped.crop = view.crop;
+    pb::Render drawn = render();
+    fill(*drawn.mutable_factorisation(), to_wire(cropped));
+    pb::Frame pair = frame();
+    pair.set_eyes(2);
+    return {message(to_wire(view)), message(drawn), message(pair, bytes({9, 8, 7}))};
+}
+
 std::vector<Message> all_examples() {
     std::vector<Message> all = examples();
+    for (Message& message : stereo_examples()) {
+        all.push_back(std::move(message));
+    }
     for (Message& message : culling_examples()) {
         all.push_back(std::move(message));
     }

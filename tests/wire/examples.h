@@ -17,6 +17,8 @@ std::vector<Message> examples();
 std::vector<Message> sketch_examples();
 // And of those that have to do with culling.
 std::vector<Message> culling_examples();
+// Of those that have to do with pairs of pictures, and with crops.
+std::vector<Message> stereo_examples();
 std::vector<Message> all_examples();  // all of them
 
 view::TransferFunction transfer_function();
