@@ -1,5 +1,7 @@
 // Pairs of pictures and the crop box, by the panel and by the mouse over the picture.
 
+#include <sstream>
+
 #include "tests/client/window_fixture.h"
 
 namespace shearwater::window_test {
@@ -7,6 +9,7 @@ namespace {
 
 struct Place {
     int x = 0, y = 0, width = 0, height = 0;
+    bool operator==(const Place&) const = default;
 };
 
 class WindowStereoTest : public WindowTest {
@@ -14,26 +17,33 @@ class WindowStereoTest : public WindowTest {
     void open() {
         start_tree();
         open_window();
+        // From below, so that none moves before it is met: the panel has no room for all.
+        for (const char* title : {"section/QUALITY AND SPEED", "section/CUBE"}) {
+            click(title);
+        }
     }
     std::optional<Place> place_of(const std::string& name) const {
         std::ifstream lines(file_);
-        std::string found;
-        Place place;
-        while (lines >> found >> place.x >> place.y >> place.width >> place.height) {
-            if (found == name) {
+        for (std::string line; std::getline(lines, line);) {
+            Place place;
+            std::istringstream numbers(line.starts_with(name + " ") ? line.substr(name.size()) : "");
+            if (numbers >> place.x >> place.y >> place.width >> place.height) {
                 return place;
             }
         }
         return std::nullopt;
     }
-    // Where a control is once it is there.
+    // Where a control is once it is there and stays.
     Place control(const std::string& name) const {
         const auto end = std::chrono::steady_clock::now() + 60s;
+        std::optional<Place> last;
         while (std::chrono::steady_clock::now() < end) {
-            if (const auto place = place_of(name)) {
+            const auto place = place_of(name);
+            if (place && place == last) {
                 return *place;
             }
-            std::this_thread::sleep_for(50ms);
+            last = place;
+            std::this_thread::sleep_for(400ms);
         }
         ADD_FAILURE() << name << " is not in the window\n" << text_of(file_);
         return {};

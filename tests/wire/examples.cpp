@@ -345,9 +345,27 @@ std::vector<Message> editor_examples() {
     return {message(described), message(to_wire(view))};
 }
 
+std::vector<Message> stereo_examples() {
+    View view = view_request();
+    view.stereo = view::StereoSettings{1, 2, true};
+    view.crop = volume::Box{{1, 2, 3}, {40, 50, 60}};
+    view.camera.slant = {0.25, -0.5};
+    view::Factorisation cropped = factorisation();
+    cropped.crop = view.crop;
+    pb::Render drawn = render();
+    fill(*drawn.mutable_factorisation(), to_wire(cropped));
+    pb::Frame pair = frame();
+    pair.set_eyes(2);
+    return {message(to_wire(view)), message(drawn), message(pair, bytes({9, 8, 7}))};
+}
+
 std::vector<Message> all_examples() {
     std::vector<Message> all = examples();
+<<<<<<< HEAD
     for (Message& message : editor_examples()) {
+=======
+    for (Message& message : stereo_examples()) {
+>>>>>>> stereo
         all.push_back(std::move(message));
     }
     for (Message& message : culling_examples()) {

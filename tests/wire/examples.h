@@ -20,6 +20,8 @@ std::vector<Message> sketch_examples();
 std::vector<Message> culling_examples();
 // And of those that have to do with what the editor of transfer functions shows and makes.
 std::vector<Message> editor_examples();
+// Of those that have to do with pairs of pictures, and with crops.
+std::vector<Message> stereo_examples();
 std::vector<Message> all_examples();  // all of them
 
 view::TransferFunction transfer_function();

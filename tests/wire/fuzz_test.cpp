@@ -45,6 +45,9 @@ void convert(const Body& body) {
     if (const auto* view = std::get_if<pb::SetView>(&body)) {
         if (const auto from = view_from(*view)) {
             EXPECT_TRUE(view::validate(from->camera, from->size));
+            for (const view::Camera& eye : cameras_of(*from)) {
+                EXPECT_TRUE(view::validate(eye, from->size));
+            }
             EXPECT_TRUE(view::validate(from->tf));
         }
     } else if (const auto* render = std::get_if<pb::Render>(&body)) {
