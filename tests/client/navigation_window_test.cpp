@@ -34,15 +34,16 @@ class NavigationTest : public WindowTest {
         ASSERT_TRUE(wait_for([&] { return control("camera/Fit").has_value(); }));
     }
 
-    // The view as the window saves it, once it `holds`.
+    // The view as the window saves it, once it `holds` and has come to rest.
     scene::Scene saved(const std::function<bool(const scene::Scene&)>& holds, const char* what) {
         scene::Scene last;
         const bool seen = wait_for([&] {
+            const scene::Scene before = last;
             display_->key("ctrl+s");
             std::this_thread::sleep_for(100ms);
             const auto read = scene::read((folder_ / "view.toml").string());
             last = read ? *read : last;
-            return read && holds(*read);
+            return read && holds(*read) && *read == before;
         });
         EXPECT_TRUE(seen) << what << ":\n" << scene::to_toml(last) << text_of(folder_ / "client.log");
         return last;
