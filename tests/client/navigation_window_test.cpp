@@ -60,12 +60,12 @@ class NavigationTest : public WindowTest {
             },
             what);
     }
+    // A double click selects what is there.
     void type(const std::string& name, const std::string& text) {
         ASSERT_TRUE(wait_for([&] { return control(name).has_value(); })) << name << " is not to be seen";
         display_->click(control(name)->x, control(name)->y, 2);
-        display_->key("ctrl+a");
         display_->type(text);
-        display_->key("Return");
+        display_->hold("Return", 400ms);  // the widget sees only what is down in a pass
     }
 
     std::map<std::string, std::string> environment_;
