@@ -65,14 +65,21 @@ void fields(Desk& desk, std::initializer_list<Field> row) {
     const float count = static_cast<float>(row.size());
     const float gap = desk.px(4);
     const float width = (ImGui::GetContentRegionAvail().x - gap * (count - 1)) / count;
-    bool first = true;
+    const float left = ImGui::GetCursorPosX();
+    float x = left;
     for (const Field& field : row) {
-        if (!first) {
-            ImGui::SameLine(0, gap);
+        if (x > left) {
+            ImGui::SameLine(x);
         }
-        first = false;
-        ImGui::BeginGroup();
         small_text(desk, theme::muted, field.label);
+        x += width + gap;
+    }
+    x = left;
+    for (const Field& field : row) {
+        if (x > left) {
+            ImGui::SameLine(x);
+        }
+        x += width + gap;
         double value = model::number(desk.wish.viewpoint, field.which, desk.units, desk.lattice());
         ImGui::SetNextItemWidth(width);
         ImGui::PushID(field.name);
@@ -80,7 +87,6 @@ void fields(Desk& desk, std::initializer_list<Field> row) {
             ImGui::InputDouble("##number", &value, 0, 0, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue);
         ImGui::PopID();
         desk.controls.note(std::string("camera/") + field.name);
-        ImGui::EndGroup();
         if (entered) {
             model::Viewpoint to = desk.heading();
             const auto set = model::set_number(to, field.which, value, desk.units, desk.lattice());

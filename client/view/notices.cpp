@@ -54,8 +54,7 @@ std::optional<Notice> banner_for(const Desk& desk) {
     return std::nullopt;
 }
 
-// At `top` of the picture, window coordinates.
-void banner(const Desk& desk, const Notice& notice, ImVec2 from, ImVec2 size, float top) {
+void banner(const Desk& desk, const Notice& notice, ImVec2 from, ImVec2 size) {
     ImFont* title_font = desk.fonts.text;
     ImFont* detail_font = desk.fonts.small;
     const float pad = desk.px(12), gap = desk.px(10), mark = desk.px(3);
@@ -64,7 +63,7 @@ void banner(const Desk& desk, const Notice& notice, ImVec2 from, ImVec2 size, fl
     const ImVec2 detail =
         detail_font->CalcTextSizeA(detail_font->FontSize, FLT_MAX, 0, notice.detail.c_str());
     const float width = std::min(room, title.x + gap + detail.x) + 2 * pad;
-    const ImVec2 at{std::round(from.x + (size.x - width) / 2), top};
+    const ImVec2 at{std::round(from.x + (size.x - width) / 2), from.y + desk.px(16)};
     const ImVec2 to{at.x + width, at.y + title.y + desk.px(14)};
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(at, to, IM_COL32(26, 28, 34, 235), desk.px(6));
@@ -143,11 +142,7 @@ void notices(const Desk& desk, ImVec2 from, ImVec2 size) {
         progress_card(desk, *progress, from, size);
     }
     if (const auto notice = banner_for(desk)) {
-        banner(desk, *notice, from, size, from.y + desk.px(16));
-    }
-    if (ImGui::GetTime() < desk.saying.until) {
-        const Notice said{desk.saying.is_bad ? theme::bad : theme::text, "", desk.saying.words};
-        banner(desk, said, from, size, from.y + size.y - desk.px(56));
+        banner(desk, *notice, from, size);
     }
 }
 

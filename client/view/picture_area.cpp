@@ -165,7 +165,11 @@ void status_line(const Desk& desk, ImVec2 from, ImVec2 size) {
     const float view_x = view_line(desk, from.x + size.x - desk.px(12), y);
     ImGui::SetCursorScreenPos({from.x + desk.px(12), y});
     ImGui::PushClipRect(from, {view_x - desk.px(12), from.y + size.y}, true);
-    text(theme::muted, desk.status.words);
+    const bool says = ImGui::GetTime() < desk.saying.until;
+    text(!says                ? theme::muted
+         : desk.saying.is_bad ? theme::bad
+                              : theme::text,
+         says ? desk.saying.words : desk.status.words);
     ImGui::PopClipRect();
     ImGui::PopFont();
     ImGui::End();

@@ -32,15 +32,16 @@ class NavigationTest : public WindowTest {
         control("camera/Fit");  // is there
     }
 
-    // The view as the window saves it, once it `holds`.
+    // The view as the window saves it, once it `holds` and has come to rest.
     scene::Scene saved(const std::function<bool(const scene::Scene&)>& holds, const char* what) {
         scene::Scene last;
         const bool seen = wait_for([&] {
+            const scene::Scene before = last;
             display_->key("ctrl+s");
             std::this_thread::sleep_for(100ms);
             const auto read = scene::read((folder_ / "view.toml").string());
             last = read ? *read : last;
-            return read && holds(*read);
+            return read && holds(*read) && *read == before;
         });
         EXPECT_TRUE(seen) << what << ":\n" << scene::to_toml(last) << text_of(folder_ / "client.log");
         return last;
@@ -57,11 +58,11 @@ class NavigationTest : public WindowTest {
             },
             what);
     }
+    // A double click selects what is there.
     void type(const std::string& name, const std::string& text) {
         click(name, 2);
-        display_->key("ctrl+a");
         display_->type(text);
-        display_->key("Return");
+        display_->hold("Return", 400ms);  // the widget sees only what is down in a pass
     }
 
     std::map<std::string, std::string> environment_;

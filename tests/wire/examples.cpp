@@ -361,11 +361,10 @@ std::vector<Message> stereo_examples() {
 
 std::vector<Message> all_examples() {
     std::vector<Message> all = examples();
-<<<<<<< HEAD
     for (Message& message : editor_examples()) {
-=======
+        all.push_back(std::move(message));
+    }
     for (Message& message : stereo_examples()) {
->>>>>>> stereo
         all.push_back(std::move(message));
     }
     for (Message& message : culling_examples()) {
