@@ -133,7 +133,7 @@ bool plot_mouse(Desk& desk, const Plot& plot) {
     EditorState& editor = desk.editor;
     const float margin = desk.px(6);
     ImGui::SetCursorScreenPos({plot.from.x - margin, plot.from.y - margin});
-    ImGui::InvisibleButton("plot", {plot.width() + 2 * margin, plot.height() + margin},
+    ImGui::InvisibleButton("plot", {plot.width() + 2 * margin, plot.height() + margin + desk.px(5)},
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
     desk.controls.note("editor/plot");
     const ImVec2 mouse = ImGui::GetIO().MousePos;

@@ -25,9 +25,7 @@ class EditorWindowTest : public WindowTest {
     std::string saved_text(const std::string& anchor = "stretched") {
         const std::string name = "probe" + std::to_string(++probes_);
         click("editor/presets");
-        click("editor/preset-name");
-        display_->key("ctrl+a");
-        display_->type(name);
+        enter("editor/preset-name", name);
         choose("editor/anchor", anchor);
         click("editor/preset-save");
         const auto end = std::chrono::steady_clock::now() + 60s;
