@@ -46,9 +46,9 @@ TEST_F(Commands, AFunctionOnAScaleIsDrawnTheSameWithAndWithoutDaemons) {
     for (const std::string unit : {"percentile", "sigma", "value"}) {
         const std::string tf = scratch_.path(unit + ".toml");
         std::ofstream(tf) << "density = 3\n[scale]\nunit = \"" << unit << "\"\n[[opacity]]\nkind = \"ramp\"\n"
-                          << (unit == "percentile" ? "x0 = 60\nx1 = 99\n" : "x0 = 0.5\nx1 = 9\n")
+                          << (unit == "percentile" ? "x0 = 60\nx1 = 99\n" : "x0 = 0.1\nx1 = 2\n")
                           << "a0 = 0.001\na1 = 0.4\n";
-        for (const std::string limits : {"", " --range 0 20"}) {
+        for (const std::string limits : {"", " --range 0 2"}) {
             const std::string view = " --size 90x70 --tf " + tf + limits + " --tree ";
             const Outcome one = run("snapshot " + cube_ + " -o " + png_ + view + "1,1");
             ASSERT_EQ(one.status, 0) << one.err;
