@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "client/view/function_plot.h"
 #include "client/view/function_tab.h"
@@ -29,13 +30,13 @@ std::optional<std::size_t> handle_under(const Desk& desk, const Plot& plot, ImVe
     return nearest;
 }
 
-// Of the pins whose area the mouse is in, or on whose outline, that which covers least: the others can be had
-// beside it. The selected one keeps what lies in it.
+// Of the pins whose area the mouse is in, or on whose outline, that which is narrowest: the others can be had
+// beside it.
 std::optional<std::size_t> pin_under(const Desk& desk, const Plot& plot, ImVec2 mouse) {
     const auto& pins = desk.wish.tf.opacity_pins;
     const double s = plot.s_at(mouse.x);
     std::optional<std::size_t> found;
-    double least = 2;
+    double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < pins.size(); ++i) {
         const auto* blank = std::get_if<view::Blank>(&pins[i]);
         const double height = model::height_at(pins[i], s);
@@ -43,9 +44,9 @@ std::optional<std::size_t> pin_under(const Desk& desk, const Plot& plot, ImVec2 
                                              : height > 0 && mouse.y >= plot.y(height) - desk.px(5);
         const std::vector<double> edges = model::edges_of(pins[i]);
         const double width = edges.empty() ? 1.5 : edges.back() - edges.front();
-        if (inside && (width < least || desk.editor.pin == i)) {
+        if (inside && width < least) {
             found = i;
-            least = desk.editor.pin == i ? -1 : width;
+            least = width;
         }
     }
     return found;
@@ -133,7 +134,7 @@ bool plot_mouse(Desk& desk, const Plot& plot) {
     EditorState& editor = desk.editor;
     const float margin = desk.px(6);
     ImGui::SetCursorScreenPos({plot.from.x - margin, plot.from.y - margin});
-    ImGui::InvisibleButton("plot", {plot.width() + 2 * margin, plot.height() + margin},
+    ImGui::InvisibleButton("plot", {plot.width() + 2 * margin, plot.height() + margin + desk.px(5)},
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
     desk.controls.note("editor/plot");
     const ImVec2 mouse = ImGui::GetIO().MousePos;

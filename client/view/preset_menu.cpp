@@ -110,7 +110,8 @@ void preset_menu(Desk& desk) {
         }
         list(desk);
         ImGui::SetNextItemWidth(desk.px(300));
-        ImGui::InputTextWithHint("##name", "name", editor.preset_name.data(), editor.preset_name.size());
+        ImGui::InputTextWithHint("##name", "name", editor.preset_name.data(), editor.preset_name.size(),
+                                 ImGuiInputTextFlags_AutoSelectAll);
         desk.controls.note("editor/preset-name");
         anchor_choice(desk);
         buttons(desk);

@@ -267,8 +267,7 @@ class WindowTest : public testing::Test {
     }
     // Into a field, instead of what it holds.
     void enter(const std::string& name, const std::string& text) {
-        click(name);
-        display_->key("ctrl+a");
+        click(name);  // which selects all of it
         display_->type(text);
         display_->key("Return");
     }

@@ -87,6 +87,32 @@ TEST_F(Commands, PairsOfEyesAreTheSameWithAndWithoutDaemons) {
     EXPECT_TRUE(support::lit(cropped));
 }
 
+// By the values of the cube, which a tree counts, with limits given too.
+TEST_F(Commands, AFunctionOnAScaleIsDrawnTheSameWithAndWithoutDaemons) {
+    for (const std::string unit : {"percentile", "sigma", "value"}) {
+        const std::string tf = scratch_.path(unit + ".toml");
+        std::ofstream(tf) << "density = 3\n[scale]\nunit = \"" << unit << "\"\n[[opacity]]\nkind = \"ramp\"\n"
+                          << (unit == "percentile" ? "x0 = 60\nx1 = 99\n" : "x0 = 0.1\nx1 = 2\n")
+                          << "a0 = 0.001\na1 = 0.4\n";
+        for (const std::string limits : {"", " --range 0 2"}) {
+            const std::string view = " --size 90x70 --tf " + tf + limits + " --tree ";
+            const Outcome one = run("snapshot " + cube_ + " -o " + png_ + view + "1,1");
+            ASSERT_EQ(one.status, 0) << one.err;
+            const auto single = image::read_png(png_);
+            const Outcome two = run("snapshot " + cube_ + " -o " + png_ + view + "2,2");
+            ASSERT_EQ(two.status, 0) << two.err;
+            const auto tree = image::read_png(png_);
+            ASSERT_TRUE(single && tree);
+            EXPECT_TRUE(support::lit(*single)) << unit << limits;
+            EXPECT_LE(support::difference(*single, *tree).largest, 1) << unit << limits;
+        }
+    }
+    expect_mistake("bench frame " + cube_ + " --tf " + scratch_.path("sigma.toml"), "the cube is not known");
+    ASSERT_EQ(run("sample slab --size 9 9 9 -o " + cube_).status, 0);
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --tree 1,1 --tf " + scratch_.path("sigma.toml"),
+                   "sigma");
+}
+
 TEST_F(Commands, ACubeByFormulaIsDrawnLikeTheFileOfIt) {
     const std::string view = " --range 0 255 --azimuth 40 --size 120x90 --tree ";
     ASSERT_EQ(run("sample noise-sources --size 40 34 29 --seed 6 -o " + cube_).status, 0);

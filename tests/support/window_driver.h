@@ -51,8 +51,9 @@ class Display {
     const std::string& name() const { return name_; }  // ":7"
     Picture grab() const;
 
+    // A key is held for some passes: Dear ImGui knows only of what is down in one.
     // The mouse is in the upper left corner before and after each of these: its pointer is on the screen.
-    void key(const std::string& name) { xdotool({"key", name}); }
+    void key(const std::string& name) { xdotool({"key", "--delay", "400", name}); }
     // Characters, wherever they are typed into.
     void type(const std::string& text) { xdotool({"type", "--delay", "30", "--", text}); }
     void hold(const std::string& key, std::chrono::milliseconds time);
