@@ -33,7 +33,7 @@ Sheaves sheaves_of(const Task& task, int axis, std::int64_t first, std::int64_t 
         const auto slopes = task.directions.slopes(cell, axis);
         sheaves.push_back(
             slopes ? std::optional(ColumnSheaf(*slopes, static_cast<int>(first), static_cast<int>(count),
-                                               static_cast<double>(task.edge) / 2, task.cells.sampled))
+                                               static_cast<double>(task.edge) / 2))
                    : std::nullopt);
     }
     return sheaves;

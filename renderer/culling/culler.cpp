@@ -13,10 +13,9 @@ FunctionTable functions_of(const shear::BrickVolume& volume, const FunctionKey& 
                            const DirectionGrid& directions, bool from_octants, const view::Vec3& spacing,
                            base::Workers& workers, const std::stop_token& stop) {
     const double height = ladder[static_cast<std::size_t>(key.rung)];
-    const shear::OpacityTable table(at_height(key.basis, height), volume.mapping().levels());
     // Of a basis of height 1: what the pin's height is multiplied with.
     const double length = std::min({spacing.x, spacing.y, spacing.z}) / height;
-    const LeastExtinctions extinctions(table, volume.mapping().bits, length);
+    const LeastExtinctions extinctions(at_height(key.basis, height), volume.mapping(), length);
     const Cells cells =
         from_octants ? cells_of_octants(volume, extinctions) : cells_of_nodes(volume, key.level, extinctions);
     // Octants are too coarse for narrow directions to say more than wide ones.

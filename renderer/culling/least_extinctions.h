@@ -1,6 +1,10 @@
 #pragma once
 // The least extinction that a sample or segment in a cell between nodes may have: a lower bound for every way
-// to sample it, along whichever axis, and whatever lies between its nodes.
+// to sample it, along whichever axis, whatever lies between its nodes, and however it is classified.
+//
+// A segment (shear/segment_table.h) has the mean of the stretches of values that it passes through, which may
+// be much shorter than from code to code: that of the thinnest hole counts. A sample has the mean about one
+// code, or between two of them, of the same stretches.
 //
 // Extinctions are whole units, rounded down, of optical depth along the smallest distance of two voxels.
 
@@ -8,9 +12,10 @@
 #include <span>
 #include <vector>
 
+#include "common/view/transfer_function.h"
 #include "common/volume/box.h"
+#include "common/volume/mapping.h"
 #include "renderer/shear/code_volume.h"
-#include "renderer/shear/opacity_table.h"
 
 namespace shearwater::culling {
 
@@ -21,8 +26,8 @@ inline constexpr std::int16_t most_units = 32767;
 // The least extinction between two codes, of all that interpolation may give.
 class LeastExtinctions {
   public:
-    // For codes of so many bits, along `length` of the world.
-    LeastExtinctions(const shear::OpacityTable& table, int bits, double length);
+    // For a mapping's codes, along `length` of the world.
+    LeastExtinctions(const view::TransferFunction& tf, const volume::Mapping& mapping, double length);
 
     // Codes that are values, min <= max.
     std::int16_t between(std::uint16_t min, std::uint16_t max) const;

@@ -45,8 +45,12 @@ TEST(Merge, OfPartsSaysNoMoreThanTheWhole) {
     test::FloatCube noise = test::noise_cube(n);
     const auto member = members_of(ramp(0.1, 0.1, 0.9, 0.4)).at(0);
     for (const Footprint footprint : {Footprint::column, Footprint::block}) {
-        for (const bool octants : {false, true}) {
-            const FunctionKey key{footprint, member.basis, 1, 0};
+        struct From {
+            bool octants;
+            int level;
+        };
+        for (const auto& [octants, level] : {From{false, 0}, From{true, 0}, From{false, 1}}) {
+            const FunctionKey key{footprint, member.basis, 1, level};
             const FunctionTable whole = of(noise, {volume::whole(n)}, key, octants);
             const FunctionTable parts = of(noise, cut, key, octants);
             ASSERT_EQ(whole.codes.size(), parts.codes.size());
