@@ -9,8 +9,7 @@ namespace shearwater::bench {
 
 void culling_functions(const CullingRun& run) {
     const auto members = culling::members_of(run.drawn.tf);
-    const auto rung = members.empty() ? std::nullopt : culling::rung_below(members[0].height);
-    if (!rung) {
+    if (members.empty()) {
         run.report.note("\nThe transfer function has no basis to compute functions of.");
         return;
     }
@@ -29,12 +28,11 @@ void culling_functions(const CullingRun& run) {
         for (const From from : {From{"octants", true}, From{"voxels", false}}) {
             for (const int side : {12, 24, 36}) {
                 const culling::DirectionGrid directions(side);
-                const culling::FunctionKey key{footprint, members[0].basis, *rung, 0};
+                const culling::FunctionKey key{footprint, members[0].basis, 0};
                 Clock clock;
                 const std::clock_t before = std::clock();
-                const culling::FunctionTable table =
-                    culling::functions_of(run.cube.bricks(), key, grid, directions, from.octants,
-                                          run.cube.lattice().spacing, run.cube.workers());
+                const culling::FunctionTable table = culling::functions_of(
+                    run.cube.bricks(), key, grid, directions, from.octants, run.cube.workers());
                 const double seconds = clock.lap();
                 const double processor_seconds = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
                 Record record = run.record();

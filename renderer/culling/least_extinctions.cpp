@@ -12,14 +12,14 @@ namespace shearwater::culling {
 
 using volume::Index3;
 
-LeastExtinctions::LeastExtinctions(const view::TransferFunction& tf, const volume::Mapping& mapping,
-                                   double length)
+LeastExtinctions::LeastExtinctions(const Basis& basis, const volume::Mapping& mapping)
     : log_codes_per_node_(mapping.bits == 8 ? 0 : 4) {
+    const view::TransferFunction tf = at_height(basis, least_height);
     const shear::SegmentTable table(tf, mapping.levels(), shear::OpacityTable(tf, mapping.levels()));
     const int last = table.node_of(static_cast<float>(mapping.levels()));
     // The table counts halvings of the light. What a ray gathers is rounded, by less than this.
     constexpr double rounding = 1.0 / 1024;
-    const double scale = std::log(2.0) * length / depth_unit * (1 - rounding);
+    const double scale = std::log(2.0) / least_height / value_unit * (1 - rounding);
     std::vector<std::int16_t> stretches;  // from each of the table's nodes to the next, from -1 on
     for (int node = -1; node <= last; ++node) {
         const shear::SegmentTable::Node& from = table.nodes()[node];

@@ -6,28 +6,29 @@
 // be much shorter than from code to code: that of the thinnest hole counts. A sample has the mean about one
 // code, or between two of them, of the same stretches.
 //
-// Extinctions are whole units, rounded down, of optical depth along the smallest distance of two voxels.
+// Extinctions are whole units, rounded down, of the least height's (common/culling/family.h).
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "common/view/transfer_function.h"
+#include "common/culling/family.h"
 #include "common/volume/box.h"
 #include "common/volume/mapping.h"
 #include "renderer/shear/code_volume.h"
 
 namespace shearwater::culling {
 
-inline constexpr double depth_unit = 1.0 / 4096;
-// What is more is opaque enough.
-inline constexpr std::int16_t most_units = 32767;
+// Of a shape's value. 32 cells of the greatest have a sum that is a word. Nor does a sum of excesses over a
+// mean that is cut off at +-2^15 (sheaf.cpp) hide a lack: both together are 2^16 at least only in more cells.
+inline constexpr double value_unit = 1.0 / 2040;
+inline constexpr std::int16_t most_units = 2040;
 
 // The least extinction between two codes, of all that interpolation may give.
 class LeastExtinctions {
   public:
-    // For a mapping's codes, along `length` of the world.
-    LeastExtinctions(const view::TransferFunction& tf, const volume::Mapping& mapping, double length);
+    // Of a basis, for a mapping's codes.
+    LeastExtinctions(const Basis& basis, const volume::Mapping& mapping);
 
     // Codes that are values, min <= max.
     std::int16_t between(std::uint16_t min, std::uint16_t max) const;

@@ -241,7 +241,7 @@ void Jobs::find(const leaf::Find& job, bool coarse, base::Workers& workers, cons
     }
     culling::FunctionTable table =
         culling::functions_of(*volume, job.key, culling::BlockGrid(volume->cube(), job.block_edge),
-                              culling::DirectionGrid(job.side), coarse, job.spacing, workers, stop);
+                              culling::DirectionGrid(job.side), coarse, workers, stop);
     if (stop.stop_requested()) {
         return;
     }

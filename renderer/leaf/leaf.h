@@ -67,7 +67,6 @@ struct Find {
     culling::FunctionKey key;
     std::int64_t block_edge;
     int side;  // of the direction grid
-    view::Vec3 spacing;
 };
 struct Stop {  // whatever of this job still runs
     Job job;

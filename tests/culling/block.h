@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/culling/family.h"
+#include "common/culling/rates.h"
 #include "renderer/culling/block_cells.h"
 #include "renderer/culling/least_extinctions.h"
 #include "renderer/shear/brick_volume.h"
@@ -15,21 +17,20 @@
 
 namespace shearwater::culling {
 
-// Edges as sharp as a step: thin haze in a slit much narrower than a code of 8 bits, dense fog on both sides.
-inline view::TransferFunction slit(double at, double haze, double fog) {
-    return {
-        .opacity_pins = {view::Flat{haze}, view::Hat{at - 0.5, 1, 1, fog}, view::Hat{at + 0.501, 1, 1, fog}},
-        .colour_pins = {{0, {1, 1, 1}}}};
-}
-
 inline view::TransferFunction ramp(double x0, double a0, double x1, double a1) {
     return {.opacity_pins = {view::Ramp{x0, a0, x1, a1}}, .colour_pins = {{0, {1, 1, 1}}}};
 }
 
-// A block of a level's nodes of a cube under a transfer function. All places are counted in its nodes.
+// A step much narrower than a code of 8 bits.
+inline view::TransferFunction step(double at, double haze, double fog) {
+    return ramp(at, haze, at + 0.001, fog);
+}
+
+// A block of a level's nodes of a cube under a transfer function of one pin. All places are counted in its
+// nodes.
 struct Block {
     const shear::BrickVolume& volume;
-    view::TransferFunction tf;
+    Member member;
     shear::OpacityTable table;
     shear::SegmentTable segments;
     volume::Box box;
@@ -38,14 +39,16 @@ struct Block {
     Block(const shear::BrickVolume& of, const view::TransferFunction& by, const volume::Box& part,
           int at_level = 0)
         : volume(of),
-          tf(by),
+          member(members_of(by).at(0)),
           table(by, of.mapping().levels()),
           segments(by, of.mapping().levels(), table),
           box(part),
           level(at_level) {}
 
     const shear::CodeVolume& nodes() const { return volume.level(level); }
-    LeastExtinctions extinctions() const { return {tf, volume.mapping(), 1}; }
+    // By a function's code, along a unit of length.
+    double least_of(int code) const { return lifted(rate_of(code), member.height, 1); }
+    LeastExtinctions extinctions() const { return {member.basis, volume.mapping()}; }
     BlockCells cells() const {
         const LeastExtinctions least = extinctions();
         return {cells_of_nodes(volume, level, least), box};

@@ -140,7 +140,7 @@ void expect_below_every_line(const shear::BrickVolume& whole, const shear::Brick
         for (const auto& [per_cell, segments] : {std::pair{1, false}, {2, false}, {1, true}, {2, true}}) {
             const double depth = depth_along(all, block, axis, u, v, through, per_cell, segments, last);
             EXPECT_GE(depth * static_cast<double>(node) * (1 + 1e-6),
-                      rate_of(code) * static_cast<double>(grid.box(at).cells(axis)))
+                      all.least_of(code) * static_cast<double>(grid.box(at).cells(axis)))
                 << axis << ": " << u << ", " << v << " by " << per_cell << (segments ? " segments" : "");
         }
     }
@@ -159,7 +159,7 @@ TEST(ColumnFunctions, AreBelowEveryLine) {
                 const auto volume = test::bricks_of(*cube, box, workers, {.bits = bits});
                 const auto whole = test::bricks_of(*cube, workers, {.bits = bits});
                 for (const auto& tf :
-                     {ramp(0.2, 0.02, 0.9, 0.3), ramp(0.1, 0.4, 0.5, 0.05), slit(0.3, 0.02, 0.3)}) {
+                     {ramp(0.2, 0.02, 0.9, 0.3), ramp(0.1, 0.4, 0.5, 0.05), step(0.3, 0.02, 0.3)}) {
                     expect_below_every_line(whole, volume, tf, {12, 300, ++seed});
                     expect_below_every_line(whole, volume, tf, {12, 300, ++seed, true});
                 }
@@ -183,7 +183,7 @@ TEST(ColumnFunctions, AreBelowEveryLineOnCoarseLevels) {
          {volume::whole(n), Box{{0, 13, 6}, {77, 130, 101}}, Box{{77, 13, 0}, {149, 130, 138}}}) {
         const auto volume = test::bricks_of(waves, box, workers);
         for (const int level : {1, 2}) {
-            for (const auto& tf : {ramp(0.2, 0.02, 0.9, 0.3), slit(0.3, 0.02, 0.3)}) {
+            for (const auto& tf : {ramp(0.2, 0.02, 0.9, 0.3), step(0.3, 0.02, 0.3)}) {
                 expect_below_every_line(whole, volume, tf, {12, 400, ++seed, false, level});
             }
         }
@@ -205,7 +205,7 @@ TEST(ColumnFunctions, DependOnTheDirection) {
     const auto rate_along = [&](int axis, double u, double v) {
         std::vector<int> cells;
         directions.cells_of(axis, {{u, u}, {v, v}}, cells);
-        return rate_of(table.codes[static_cast<std::size_t>(cells.at(0)) * 27 + grid.index({1, 1, 1})]);
+        return all.least_of(table.codes[static_cast<std::size_t>(cells.at(0)) * 27 + grid.index({1, 1, 1})]);
     };
     EXPECT_GT(32 * rate_along(0, 0.01, 0.01), 4);
     EXPECT_GT(32 * rate_along(0, -0.5, 0.6), 4);
@@ -223,7 +223,7 @@ TEST(ColumnFunctions, AreExactWhereAllIsAlike) {
         const auto table = column_functions(cells_of_nodes(volume, 0, extinctions), BlockGrid(cube.n()),
                                             volume.box(), DirectionGrid(36), workers);
         for (std::size_t cell = 0; cell < 648; ++cell) {
-            const double rate = rate_of(table.codes[cell * 27 + 13]);  // of the innermost block
+            const double rate = all.least_of(table.codes[cell * 27 + 13]);  // of the innermost block
             EXPECT_LE(rate, -std::log1p(-opacity));
             EXPECT_GE(rate, 0.9 * -std::log1p(-opacity));
         }

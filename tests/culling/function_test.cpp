@@ -67,11 +67,11 @@ void expect_below_every_line(const Block& block, int side, int lines, unsigned s
             if (const auto mean = mean_along(block, axis, u, v, through, per_cell, segments)) {
                 ++met;
                 const int code = *std::min_element(codes.begin(), codes.end());
-                double rate = rate_of(code);
+                double rate = block.least_of(code);
                 for (const int cell : cells) {
-                    rate = std::max(rate, rate_of(codes[static_cast<std::size_t>(cell)]));
+                    rate = std::max(rate, block.least_of(codes[static_cast<std::size_t>(cell)]));
                 }
-                EXPECT_GE(*mean * (1 + 1e-6), cells.size() == 1 ? rate : rate_of(code))
+                EXPECT_GE(*mean * (1 + 1e-6), cells.size() == 1 ? rate : block.least_of(code))
                     << axis << ": " << u << ", " << v << " by " << per_cell << (segments ? " segments" : "");
             }
         }
@@ -92,7 +92,7 @@ TEST(OpacityFunction, IsBelowEveryLine) {
         for (const int bits : {8, 16}) {
             const auto volume = test::bricks_of(*cube, workers, {.bits = bits});
             for (const auto& tf : {ramp(0.2, 0.02, 0.9, 0.3), ramp(0.3, 0, 0.6, 0.9),
-                                   ramp(0.1, 0.4, 0.5, 0.05), slit(0.3, 0.02, 0.3)}) {
+                                   ramp(0.1, 0.4, 0.5, 0.05), step(0.3, 0.02, 0.3)}) {
                 for (const Box& box : {Box{{0, 0, 0}, {32, 32, 32}}, Box{{32, 16, 3}, {39, 33, 35}}}) {
                     expect_below_every_line(Block(volume, tf, box), 12, 300, ++seed);
                 }
@@ -111,7 +111,7 @@ TEST(OpacityFunction, IsBelowEveryLineInNarrowCells) {
         return static_cast<float>(0.5 + 0.02 * std::sin(1.3 * (x + y)));
     });
     const auto nearly_even = test::bricks_of(steep, workers, {.bits = 16});
-    expect_below_every_line(Block(nearly_even, slit(0.5, 0.02, 0.3), {{0, 0, 0}, {32, 32, 32}}), 36, 3000, 8);
+    expect_below_every_line(Block(nearly_even, step(0.5, 0.02, 0.3), {{0, 0, 0}, {32, 32, 32}}), 36, 3000, 8);
 }
 
 // Of a homogeneous block it is what the block has, in every direction.
@@ -125,8 +125,8 @@ TEST(OpacityFunction, IsExactForAHomogeneousBlock) {
         std::vector<std::uint8_t> codes(648);
         builder.build(block.cells(), codes);
         for (const std::uint8_t code : codes) {
-            EXPECT_LE(rate_of(code), -std::log1p(-opacity));
-            EXPECT_GE(rate_of(code), 0.9 * -std::log1p(-opacity));
+            EXPECT_LE(block.least_of(code), -std::log1p(-opacity));
+            EXPECT_GE(block.least_of(code), 0.9 * -std::log1p(-opacity));
         }
     }
 }
@@ -141,17 +141,20 @@ TEST(LeastExtinctions, AreBelowSamplesAndSegments) {
         const auto volume = test::bricks_of(cube, workers, {.bits = bits});
         const int levels = volume.mapping().levels();
         for (int trial = 0; trial < 40; ++trial) {
-            const Block block(volume,
-                              trial % 2 == 0
-                                  ? slit(share(random), 0.05, 0.5)
-                                  : ramp(share(random), 0.9 * share(random), 1, 0.5 * share(random)),
-                              volume.box());
+            // A hole between codes, or a ramp.
+            const double hole = share(random);
+            const view::TransferFunction tf =
+                trial % 2 == 0 ? view::TransferFunction{{view::Flat{1}, view::Blank{hole, hole + 0.001}},
+                                                        {{0, {1, 1, 1}}},
+                                                        {}}
+                               : ramp(hole, 0.9 * share(random), 1, 0.5 * share(random));
+            const Block block(volume, at_height(members_of(tf).at(0).basis, 2 * least_height), volume.box());
             const LeastExtinctions least = block.extinctions();
             for (int n = 0; n < 400; ++n) {
                 const int min = 1 + static_cast<int>(share(random) * (levels - 20)), max = min + n % 20;
                 const double bound =
                     least.between(static_cast<std::uint16_t>(min), static_cast<std::uint16_t>(max)) *
-                    depth_unit;
+                    value_unit * 2 * least_height;
                 const double from = min + share(random) * (max - min), to = min + share(random) * (max - min);
                 EXPECT_LE(bound, block.sample_extinction(from)) << min << ", " << max;
                 for (const double end : {to, from, from + 0.01 * (to - from)}) {

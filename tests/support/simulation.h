@@ -90,6 +90,8 @@ class Simulation {
     bool answered(std::uint64_t revision) const;
     bool answered_whole(std::uint64_t revision) const;
 
+    // How many functions renderers have been asked to find so far.
+    int finds() const { return finds_; }
     // That renderers have left out of frames so far.
     std::uint64_t culled_bricks() const { return culled_bricks_; }
 
@@ -122,6 +124,7 @@ class Simulation {
     std::optional<wire::Message> frame_, sketch_;
     int frames_ = 0;
     std::uint64_t culled_bricks_ = 0;
+    int finds_ = 0;
 };
 
 }  // namespace shearwater::support
