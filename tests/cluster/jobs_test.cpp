@@ -87,7 +87,7 @@ TEST_F(JobsTest, FunctionsThatAreKeptAreNotFoundAgain) {
     std::vector<std::string> logged;
     // The coarse functions, if they are told first, and all.
     const auto found = [&](const volume::Mapping& mapping) {
-        std::pair<int, culling::FunctionTable> found;
+        std::pair<int, culling::FunctionTable> functions;
         Jobs jobs(
             1, [this](leaf::JobEvent event) { on_event(std::move(event)); },
             cache::FunctionCache(folder, [&](const std::string& line) { logged.push_back(line); }));
@@ -97,12 +97,12 @@ TEST_F(JobsTest, FunctionsThatAreKeptAreNotFoundAgain) {
         jobs.perform(find);
         auto told = next<leaf::Found>();
         while (told && told->coarse) {
-            ++found.first;
+            ++functions.first;
             told = next<leaf::Found>();
         }
         EXPECT_TRUE(told);
-        found.second = told ? told->table : culling::FunctionTable{};
-        return found;
+        functions.second = told ? told->table : culling::FunctionTable{};
+        return functions;
     };
     const auto first = found({0, 250});
     EXPECT_EQ(first.first, 1);
