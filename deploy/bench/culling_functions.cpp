@@ -1,6 +1,7 @@
 #include <ctime>
 
 #include "common/culling/family.h"
+#include "common/culling/polynomials.h"
 #include "deploy/bench/culling.h"
 #include "deploy/bench/paper.h"
 #include "deploy/progress_bar.h"
@@ -48,6 +49,13 @@ void culling_functions(const CullingRun& run) {
                     .number("paper_bytes", side == 36 ? std::optional(paper::function_bytes) : std::nullopt,
                             0)
                     .number("MB", static_cast<double>(table.codes.size()) / 1e6, 2);
+                const std::clock_t fitting = std::clock();
+                const auto polynomials = culling::polynomials_of(table);
+                record
+                    .number("polynomial_ms_a_block",
+                            1e3 * static_cast<double>(std::clock() - fitting) / CLOCKS_PER_SEC / blocks, 4)
+                    .count("polynomial_bytes", sizeof(culling::Polynomial))
+                    .count("paper_polynomial", 40);
                 run.report.add(record);
                 bar.show(++done / 12);
             }
