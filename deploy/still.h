@@ -21,6 +21,8 @@ struct Repeat {
     // Views asked for and not yet seen, once the first picture has come: while a window is turned the server
     // has the next before the last is there.
     int in_flight = 1;
+    // What else is another from one picture to the next, if anything is.
+    std::function<void(view::TransferFunction&)> edit = {};
 };
 
 class Still {
