@@ -6,6 +6,7 @@
 #include "protocol/daemon/options.h"
 #include "protocol/daemon/runtime.h"
 #include "protocol/wire/words.h"
+#include "renderer/cache/function_cache.h"
 #include "renderer/jobs/jobs.h"
 #include "renderer/leaf/leaf.h"
 
@@ -17,6 +18,11 @@ int main(int argc, char** argv) {
                  program);
     daemon::MemberFlags flags;
     flags.add_to(app, false);
+    std::string kept = cache::default_folder().value_or("off");
+    app.add_option("--function-cache", kept,
+                   "the folder that opacity functions are kept in for the next time, up to 1 GiB, or off")
+        ->type_name("DIR|off")
+        ->capture_default_str();
     if (const auto status = daemon::parse(app, argc, argv)) {
         return *status;
     }
@@ -51,11 +57,15 @@ int main(int argc, char** argv) {
             spdlog::log(orderly ? spdlog::level::info : spdlog::level::warn, "link down: {}", down->text);
         }
     });
-    jobs.emplace(flags.common.threads, [&](leaf::JobEvent event) {
+    const auto tell = [&](leaf::JobEvent event) {
         auto shared = std::make_shared<leaf::JobEvent>(std::move(event));
         runtime->post(
             [&, shared] { perform(leaf.handle(std::move(*shared), std::chrono::steady_clock::now())); });
-    });
+    };
+    jobs.emplace(flags.common.threads, tell,
+                 kept == "off" ? std::nullopt
+                               : std::optional(cache::FunctionCache(
+                                     kept, [](const std::string& line) { spdlog::warn("{}", line); })));
     perform(leaf.start());
     const int status = runtime->run();
     jobs.reset();

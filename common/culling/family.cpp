@@ -1,6 +1,7 @@
 #include "common/culling/family.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -44,17 +45,17 @@ std::vector<Member> members_of(const view::TransferFunction& tf) {
     std::vector<Member> members;
     for (const view::OpacityPin& pin : tf.opacity_pins) {
         const double height = height_of(pin);
-        if (height > 0) {
+        if (height >= least_height) {
             members.push_back({{scaled(pin, 1 / height), blanks}, height});
         }
     }
     return members;
 }
 
-std::optional<int> rung_below(double height) {
-    const auto above = std::upper_bound(ladder.begin(), ladder.end(), height);
-    return above == ladder.begin() ? std::nullopt
-                                   : std::optional(static_cast<int>(above - ladder.begin()) - 1);
+double lifted(double rate, double height, double distance) {
+    // The shape's value, were it the same all along.
+    const double value = std::min(-std::expm1(-rate * least_height) / least_height, 1.0);
+    return std::min(-std::log1p(-height * value), view::TransferFunction::opaque) * distance;
 }
 
 view::TransferFunction at_height(const Basis& basis, double height) {

@@ -1,9 +1,15 @@
 #pragma once
 // Families of transfer functions (POF 3.2): what of a block's opacity functions outlives an edit.
 //
-// A pin of height h over a shape x(s), 0 to 1, has the extinction e_h = -ln(1 - h x). e_h / h grows with h:
-// its series is x + h x^2 / 2 + h^2 x^3 / 3 + ... . So a function computed at a height h0 <= h, times h / h0,
-// is a lower bound, and no edit of a height needs another; a short ladder of heights keeps it tight.
+// A pin of height h over a shape x(s), 0 to 1, has the extinction e(h) = -ln(1 - h x). At the least height h0
+// that is nearly h0 x; and e(h) = g(e(h0)) with
+//
+//     g(e) = -ln(1 - k (1 - exp(-e))),  k = h / h0 >= 1.
+//
+// g rises, and is convex: its derivative is k / (k - (k - 1) exp(e)). So the mean of e(h) along a line is at
+// least g of the mean of e(h0) (Jensen), and what is least of all lines at h0 gives what no line falls below
+// at h. One function of a basis does for all heights, and no edit of one needs another. It is exact where all
+// is alike, and else at least h / h0 as much as at h0.
 //
 // Pins combine by their maximum, and blanks go before all. max(e_1, e_2, ...) is at least each of them, and
 // at least the sum of any that are nowhere above 0 together, since of those at most one counts at any value.
@@ -29,7 +35,7 @@ struct Basis {
     bool operator==(const Basis&) const = default;
 };
 
-// A transfer function as bases and heights above 0.
+// A transfer function as bases and heights.
 struct Member {
     Basis basis;
     double height;
@@ -37,10 +43,11 @@ struct Member {
 };
 std::vector<Member> members_of(const view::TransferFunction& tf);
 
-// The heights that functions are computed at, rising.
-inline constexpr std::array ladder{1.0 / 1024, 0.3, 0.6, 0.85, 0.97};
-// The highest rung that is no higher; none below the first.
-std::optional<int> rung_below(double height);
+// The height that functions are computed at; a pin that is lower is left out of account.
+inline constexpr double least_height = 1.0 / 1024;
+// The optical depth that a line has at the least along `distance` of the world, a basis being at a height, if
+// its mean extinction at the least height is `rate` times that.
+double lifted(double rate, double height, double distance);
 // A basis at a height, as a transfer function of its own.
 view::TransferFunction at_height(const Basis& basis, double height);
 

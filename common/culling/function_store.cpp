@@ -11,10 +11,11 @@ namespace shearwater::culling {
 
 namespace {
 
-std::array<float, 256> rates_times(double factor) {
+template <class Of>
+std::array<float, 256> rates_by_code(const Of& of) {
     std::array<float, 256> rates{};
     for (int code = 0; code < 256; ++code) {
-        rates[static_cast<std::size_t>(code)] = static_cast<float>(rate_of(code) * factor);
+        rates[static_cast<std::size_t>(code)] = static_cast<float>(of(rate_of(code)));
     }
     return rates;
 }
@@ -74,37 +75,41 @@ void FunctionStore::erase(const FunctionKey& key) {
     std::erase_if(tables_, [&](const auto& table) { return table.first == key; });
 }
 
-std::shared_ptr<const FunctionTable> FunctionStore::find(const FunctionKey& key) const {
+const FunctionTable* FunctionStore::find(const FunctionKey& key) const {
     for (const auto& [there, table] : tables_) {
         if (there == key) {
-            return table;
+            return table.get();
         }
     }
     return nullptr;
 }
 
-BlockRates FunctionStore::rates(const view::TransferFunction& tf, Footprint footprint, int level) {
-    if (!combined_ || combined_->tf != tf || combined_->footprint != footprint || combined_->level != level) {
+BlockRates FunctionStore::rates(const view::TransferFunction& tf, Footprint footprint, int level,
+                                double distance) {
+    if (!combined_ || combined_->tf != tf || combined_->footprint != footprint || combined_->level != level ||
+        combined_->distance != distance) {
         std::vector<Member> members;
         std::vector<Scaled> scaled;
+        float most = 0;
         for (const Member& member : members_of(tf)) {
-            for (int rung = rung_below(member.height).value_or(-1); rung >= 0; --rung) {
-                if (const auto table = find({footprint, member.basis, rung, level})) {
-                    Scaled& of = scaled.emplace_back();
-                    of.table = table.get();
-                    of.rate = rates_times(member.height * tf.density);
-                    members.push_back(member);
-                    break;
-                }
+            if (const FunctionTable* const table = find({footprint, member.basis, level})) {
+                // A density multiplies all extinctions alike.
+                scaled.push_back({table, rates_by_code([&](double rate) {
+                                      return tf.density * lifted(rate, member.height, distance);
+                                  })});
+                most = std::max(most, scaled.back().rate[most_code]);
+                members.push_back(member);
             }
         }
         combined_ = std::make_unique<Combined>(
-            Combined{tf, footprint, level, std::move(scaled), Combination(members), {}});
+            Combined{tf, footprint, level, distance, most, std::move(scaled), Combination(members), {}});
     }
     const auto& scaled = combined_->scaled;
     return {directions_,
             [this](std::span<const int> cells, base::Workers& workers) { return codes_of(cells, workers); },
-            scaled.size() == 1 ? scaled[0].rate : rates_times(1)};
+            scaled.size() == 1 ? scaled[0].rate : rates_by_code([&](double rate) {
+                return rate * static_cast<double>(combined_->most);
+            })};
 }
 
 std::vector<BlockRates::Codes> FunctionStore::codes_of(std::span<const int> cells, base::Workers& workers) {
@@ -134,7 +139,9 @@ std::vector<BlockRates::Codes> FunctionStore::codes_of(std::span<const int> cell
 
 void FunctionStore::combine(int cell, std::span<std::uint8_t> codes) const {
     const std::size_t first = static_cast<std::size_t>(cell) * grid_.size();
-    const CodesBelow codes_below(rates_times(1));
+    const CodesBelow codes_below(rates_by_code([](double rate) { return rate; }));
+    // Rounded so that no code says more than it would times `most`.
+    const float scale = combined_->most > 0 ? (1 - 1e-6F) / combined_->most : 0;
     Combination combination = combined_->combination;
     std::vector<float> rates(combined_->scaled.size());
     for (std::size_t block = 0; block < codes.size(); ++block) {
@@ -142,7 +149,7 @@ void FunctionStore::combine(int cell, std::span<std::uint8_t> codes) const {
             const Scaled& scaled = combined_->scaled[n];
             rates[n] = scaled.rate[scaled.table->codes[first + block]];
         }
-        codes[block] = codes_below(combination(rates));
+        codes[block] = codes_below(combination(rates) * scale);
     }
 }
 

@@ -20,11 +20,10 @@ inline Footprint footprint_of(Kind kind) {
     return kind == Kind::opof ? Footprint::column : Footprint::block;
 }
 
-// What a table is of: a basis at a rung of the ladder, on a level of detail.
+// What a table is of: a basis, on a level of detail.
 struct FunctionKey {
     Footprint footprint = Footprint::column;
     Basis basis;
-    int rung = 0;
     int level = 0;
     bool operator==(const FunctionKey&) const = default;
 };
@@ -38,27 +37,29 @@ class FunctionStore {
     // A table of the whole grid; in the place of one that was there.
     void put(const FunctionKey& key, std::shared_ptr<const FunctionTable> table);
     void erase(const FunctionKey& key);
-    bool has(const FunctionKey& key) const { return find(key) != nullptr; }
+    // None where there is none.
+    const FunctionTable* find(const FunctionKey& key) const;
 
-    // Of a transfer function on a level, by what is there now: a member without a table at its rung or below
-    // has no opacity. Lasts until the next put() or rates().
-    BlockRates rates(const view::TransferFunction& tf, Footprint footprint, int level);
+    // Of a transfer function on a level, by what is there now: a member without a table has no opacity.
+    // `distance` is the smallest of two voxels in the world. Lasts until the next put() or rates().
+    BlockRates rates(const view::TransferFunction& tf, Footprint footprint, int level, double distance);
 
   private:
     struct Scaled {
         const FunctionTable* table;
-        std::array<float, 256> rate;  // of a code, times the member's height
+        std::array<float, 256> rate;  // of a code, at the member's height
     };
     struct Combined {
         view::TransferFunction tf;
         Footprint footprint;
         int level;
+        double distance;
+        float most;  // of a combined code
         std::vector<Scaled> scaled;
         Combination combination;
         std::map<int, std::vector<std::uint8_t>> of;  // by direction cell, unless there is but one table
     };
 
-    std::shared_ptr<const FunctionTable> find(const FunctionKey& key) const;
     std::vector<BlockRates::Codes> codes_of(std::span<const int> cells, base::Workers& workers);
     void combine(int cell, std::span<std::uint8_t> codes) const;
 

@@ -1,16 +1,17 @@
 #pragma once
-// How opacity functions keep a block's extinction: one byte, rounded down. Code 0 is 0; the others are steps
-// of 3 % up to `greatest`, beyond which a block is opaque whichever way it is crossed.
+// How opacity functions keep what a block has of a basis: one byte, rounded down. Code 0 is 0; the others are
+// steps of 3 % up to `greatest`, that of a block where the basis' shape is 1 throughout.
 //
-// A rate is an optical depth along the smallest distance of two voxels in the world.
+// A rate is a mean extinction in the world, the basis being at the least height (family.h), over that height:
+// nearly the mean of its shape.
 
 #include <cmath>
 #include <cstdint>
 
 namespace shearwater::culling {
 
-inline constexpr double greatest_rate = 0.5;
-inline constexpr double rate_octaves = 11;
+inline constexpr double greatest_rate = 1 - 1.0 / 512;
+inline constexpr double rate_octaves = 12;
 inline constexpr int most_code = 255;
 
 inline double rate_of(int code) {

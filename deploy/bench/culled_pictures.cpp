@@ -44,12 +44,30 @@ view::TransferFunction function_at_random(std::mt19937& random) {
     return tf;
 }
 
+view::TransferFunction top_hats_at_random(std::mt19937& random) {
+    std::uniform_real_distribution<double> share(0, 1);
+    view::TransferFunction tf{
+        .opacity_pins = {}, .colour_pins = {{0, {0.2, 0.3, 1}}, {1, {1, 0.8, 0.3}}}, .background = {}};
+    const int hats = 1 + static_cast<int>(3 * share(random));
+    for (int hat = 0; hat < hats; ++hat) {
+        const double width = (hat == 0 ? 0.9 : 0.1) * std::pow(share(random), 0.5) + 0.002;
+        tf.opacity_pins.push_back(view::Hat{share(random), width, width, 0.98 * share(random) + 0.01});
+    }
+    if (share(random) < 0.5) {
+        const double lo = share(random);
+        tf.opacity_pins.push_back(view::Blank{lo, lo + 0.01 * share(random)});
+    }
+    return tf;
+}
+
 view::Sampling sampling_at_random(std::mt19937& random) {
     std::uniform_real_distribution<double> share(0, 1);
     const auto quality = share(random) < 0.2   ? view::Quality::high
                          : share(random) < 0.3 ? view::Quality::draft
                                                : view::Quality::normal;
-    return view::sampling(quality, share(random) < 0.3);
+    const bool level_of_detail = share(random) < 0.3;
+    return view::sampling(quality, level_of_detail,
+                          share(random) < 0.5 ? view::Classify::pre_integrated : view::Classify::post);
 }
 
 CulledPicture compare(const shear::BrickVolume& volume, culling::Culler& culler,

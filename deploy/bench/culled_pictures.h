@@ -18,7 +18,10 @@ namespace shearwater::bench {
 view::Camera camera_at_random(std::mt19937& random, const view::Lattice& lattice);
 // A ramp, and perhaps a hat, a floor and a blank.
 view::TransferFunction function_at_random(std::mt19937& random);
-// One view in five finer, one in four coarser; one in three with levels of detail.
+// Hats with edges as sharp as a step, and perhaps a narrow blank.
+view::TransferFunction top_hats_at_random(std::mt19937& random);
+// One view in five finer, one in four coarser; one in three with levels of detail; every other one
+// pre-integrated.
 view::Sampling sampling_at_random(std::mt19937& random);
 
 struct CulledPicture {

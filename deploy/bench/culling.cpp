@@ -70,8 +70,8 @@ std::uint64_t count_of_both(const culling::BlockSet& a, const culling::BlockSet&
 namespace {
 
 const std::vector<std::string>& table_names() {
-    static const std::vector<std::string> names{"views",  "functions", "frames",
-                                                "family", "pass",      "pass-many"};
+    static const std::vector<std::string> names{"views", "functions", "frames", "family",
+                                                "pass",  "pass-many", "drag"};
     return names;
 }
 
@@ -141,7 +141,9 @@ base::Result<bool> culling(const Flags& flags) {
         return report.error();
     }
     bool same = true;
-    const bool of_cubes = flags.check > 0 || flags.tables != std::vector<std::string>{"pass-many"};
+    const bool of_cubes = flags.check > 0 || std::ranges::any_of(flags.tables, [](const std::string& table) {
+                              return table != "pass-many" && table != "drag";
+                          });
     for (const Case& drawn : *cases) {
         if (of_cubes) {
             const auto done = measure(flags, drawn, *report);
@@ -149,6 +151,13 @@ base::Result<bool> culling(const Flags& flags) {
                 return done.error();
             }
             same = same && *done;
+        }
+        if (flags.check == 0 && flags.shows("drag")) {
+            const auto done = culling_drag(drawn, *view, flags.common.drawing.culling_threshold,
+                                           flags.common.frames, flags.common.threads, *report);
+            if (!done) {
+                return done.error();
+            }
         }
     }
     if (flags.check == 0 && flags.shows("pass-many")) {
@@ -171,8 +180,9 @@ Run add_culling(CLI::App& app) {
     auto flags = std::make_shared<Flags>();
     flags->common.drawing.lod = "off";
     flags->drawn.add_to(app);
-    app.add_option("--tables", flags->tables,
-                   "what is measured, with commas between; pass-many: a cube of 2048^3 voxels")
+    app.add_option(
+           "--tables", flags->tables,
+           "what is measured, with commas between; pass-many: a cube of 2048^3 voxels; drag: by a tree")
         ->delimiter(',')
         ->check(CLI::IsMember(table_names()))
         ->capture_default_str();

@@ -61,6 +61,9 @@ void culling_pass(const CullingRun& run);
 // The same for a cube of 2048^3 voxels that has functions and nothing else, and either projection.
 base::Status culling_pass_of_many(const deploy::ViewOptions& view, double threshold, int frames,
                                   base::Workers& workers, Report& report);
+// Pictures of a tree while a pin is dragged, with and without: none is to come later for it.
+base::Status culling_drag(const Case& drawn, const deploy::ViewOptions& view, double threshold, int frames,
+                          int threads, Report& report);
 // So many pictures at random with and without; whether none differs by more than it may.
 bool culling_check(const CullingRun& run, int pictures);
 

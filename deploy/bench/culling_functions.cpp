@@ -1,6 +1,7 @@
 #include <ctime>
 
 #include "common/culling/family.h"
+#include "common/culling/polynomials.h"
 #include "deploy/bench/culling.h"
 #include "deploy/bench/paper.h"
 #include "deploy/progress_bar.h"
@@ -9,8 +10,7 @@ namespace shearwater::bench {
 
 void culling_functions(const CullingRun& run) {
     const auto members = culling::members_of(run.drawn.tf);
-    const auto rung = members.empty() ? std::nullopt : culling::rung_below(members[0].height);
-    if (!rung) {
+    if (members.empty()) {
         run.report.note("\nThe transfer function has no basis to compute functions of.");
         return;
     }
@@ -29,12 +29,11 @@ void culling_functions(const CullingRun& run) {
         for (const From from : {From{"octants", true}, From{"voxels", false}}) {
             for (const int side : {12, 24, 36}) {
                 const culling::DirectionGrid directions(side);
-                const culling::FunctionKey key{footprint, members[0].basis, *rung, 0};
+                const culling::FunctionKey key{footprint, members[0].basis, 0};
                 Clock clock;
                 const std::clock_t before = std::clock();
-                const culling::FunctionTable table =
-                    culling::functions_of(run.cube.bricks(), key, grid, directions, from.octants,
-                                          run.cube.lattice().spacing, run.cube.workers());
+                const culling::FunctionTable table = culling::functions_of(
+                    run.cube.bricks(), key, grid, directions, from.octants, run.cube.workers());
                 const double seconds = clock.lap();
                 const double processor_seconds = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
                 Record record = run.record();
@@ -50,6 +49,13 @@ void culling_functions(const CullingRun& run) {
                     .number("paper_bytes", side == 36 ? std::optional(paper::function_bytes) : std::nullopt,
                             0)
                     .number("MB", static_cast<double>(table.codes.size()) / 1e6, 2);
+                const std::clock_t fitting = std::clock();
+                const auto polynomials = culling::polynomials_of(table);
+                record
+                    .number("polynomial_ms_a_block",
+                            1e3 * static_cast<double>(std::clock() - fitting) / CLOCKS_PER_SEC / blocks, 4)
+                    .count("polynomial_bytes", sizeof(culling::Polynomial))
+                    .count("paper_polynomial", 40);
                 run.report.add(record);
                 bar.show(++done / 12);
             }

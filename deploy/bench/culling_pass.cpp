@@ -111,8 +111,7 @@ base::Status culling_pass_of_many(const deploy::ViewOptions& view, double thresh
         culling::FunctionStore store(grid, directions);
         const auto table = std::make_shared<culling::FunctionTable>(made_up(grid, directions, codes.count));
         for (const culling::Member& member : culling::members_of(codes.tf)) {
-            store.put({culling::Footprint::column, member.basis, *culling::rung_below(member.height), 0},
-                      table);
+            store.put({culling::Footprint::column, member.basis, 0}, table);
         }
         for (const bool parallel : {false, true}) {
             deploy::ViewOptions seen = first_view(many_edge);
@@ -130,7 +129,7 @@ base::Status culling_pass_of_many(const deploy::ViewOptions& view, double thresh
                 },
                 [&](const view::Factorisation& f) {
                     return culling::visible_blocks(f, grid,
-                                                   store.rates(codes.tf, culling::Footprint::column, 0),
+                                                   store.rates(codes.tf, culling::Footprint::column, 0, 1),
                                                    {culling::Kind::opof, threshold}, workers);
                 });
             Record record;

@@ -1,5 +1,9 @@
+#include <algorithm>
 #include <cmath>
+#include <memory>
 
+#include "common/culling/function_store.h"
+#include "common/culling/polynomials.h"
 #include "deploy/bench/culling.h"
 #include "deploy/bench/culling_optimal.h"
 #include "deploy/progress_bar.h"
@@ -15,8 +19,9 @@ constexpr double turn = 360.0 / views;
 struct Visible {
     std::uint64_t opaque = 0, optimal = 0;
     std::array<std::uint64_t, culling_kinds.size()> kinds{};
-    std::uint64_t by_rays = 0;  // of bricks
-    std::uint64_t missed = 0;   // by a kind, of the optimal ones
+    std::uint64_t polynomial = 0;  // opof, of functions as polynomials
+    std::uint64_t by_rays = 0;     // of bricks
+    std::uint64_t missed = 0;      // by a kind, of the optimal ones
     bool in_order = true;
 
     void add(const Visible& view) {
@@ -25,13 +30,28 @@ struct Visible {
         for (std::size_t k = 0; k < kinds.size(); ++k) {
             kinds[k] += view.kinds[k];
         }
+        polynomial += view.polynomial;
         by_rays += view.by_rays;
         missed += view.missed;
         in_order = in_order && view.in_order;
     }
 };
 
-Visible visible_of(const CullingRun& run, culling::Culler& culler, const view::Factorisation& f) {
+// What a culler has prepared, as polynomials say it.
+culling::FunctionStore as_polynomials(const CullingRun& run, const culling::Culler& culler) {
+    const int side = culling::DirectionGrid::default_side;
+    culling::FunctionStore store(run.grid(), culling::DirectionGrid(side));
+    for (const culling::Member& member : culling::members_of(run.drawn.tf)) {
+        const culling::FunctionKey key{culling::Footprint::column, member.basis, 0};
+        const culling::FunctionTable& table = *culler.functions().find(key);
+        store.put(key, std::make_shared<culling::FunctionTable>(
+                           culling::table_of(culling::polynomials_of(table), table.blocks, side)));
+    }
+    return store;
+}
+
+Visible visible_of(const CullingRun& run, culling::Culler& culler, culling::FunctionStore& polynomials,
+                   const view::Factorisation& f) {
     base::Workers& workers = run.cube.workers();
     const shear::BrickVolume& volume = run.cube.bricks();
     const culling::BlockGrid grid = run.grid();
@@ -48,6 +68,13 @@ Visible visible_of(const CullingRun& run, culling::Culler& culler, const view::F
         visible.missed += visible.optimal - count_of_both(blocks, optimal);
         visible.in_order = visible.in_order && (k == 0 || visible.kinds[k - 1] <= visible.kinds[k]);
     }
+    const view::Vec3& spacing = run.cube.lattice().spacing;
+    const culling::BlockRates rates = polynomials.rates(run.drawn.tf, culling::Footprint::column, 0,
+                                                        std::min({spacing.x, spacing.y, spacing.z}));
+    const auto by_polynomials =
+        culling::visible_blocks(f, grid, rates, run.settings(culling::Kind::opof), workers);
+    visible.polynomial = count_of_both(by_polynomials, opaque);
+    visible.missed += visible.optimal - count_of_both(by_polynomials, optimal);
     shear::RenderStats stats;
     shear::render(volume, classification, f, workers, &stats);
     visible.by_rays = stats.bricks_rendered;
@@ -72,11 +99,13 @@ Record row(const CullingRun& run, const std::string& azimuth, const Visible& vis
         .aside("non_empty", mean(visible.opaque))
         .number("optimal", mean(visible.optimal), 0)
         .number("opof", mean(visible.kinds[0]), 0)
+        .number("polynomial", mean(visible.polynomial), 0)
         .number("linear", mean(visible.kinds[1]), 0)
         .number("pof", mean(visible.kinds[2]), 0)
         .number("by_rays", of_rays(mean(visible.by_rays)), 0)
         .number("culled_%_optimal", culled(visible.optimal), 1)
         .number("opof_%", culled(visible.kinds[0]), 1)
+        .number("polynomial_%", culled(visible.polynomial), 1)
         .number("linear_%", culled(visible.kinds[1]), 1)
         .number("pof_%", culled(visible.kinds[2]), 1)
         .number("by_rays_%", of_rays(culled(visible.by_rays)), 1)
@@ -96,13 +125,14 @@ void culling_views(const CullingRun& run) {
             bar.show(static_cast<double>(k + 1) / culling_kinds.size());
         }
     }
+    culling::FunctionStore polynomials = as_polynomials(run, culler);
     run.report.table("views", "Visible blocks of " + std::to_string(run.block) + "^3 cells: " + run.title() +
                                   ", " + std::to_string(run.grid().size()) +
                                   " blocks; by_rays: bricks that rays come to before they end");
     deploy::ProgressBar bar("views");
     Visible all;
     for (int n = 0; n < views; ++n) {
-        const Visible visible = visible_of(run, culler, run.factorisation(n * turn));
+        const Visible visible = visible_of(run, culler, polynomials, run.factorisation(n * turn));
         all.add(visible);
         const double azimuth = run.view.orbit.azimuth + n * turn;
         run.report.add(row(run, std::to_string(std::lround(azimuth)), visible, 1));

@@ -34,19 +34,23 @@ base::Result<OnTree> OnTree::start(const options::CubeOptions& cube, int branchi
     return OnTree(std::move(target), topology->renderers(), static_cast<int>(topology->nodes.size()));
 }
 
-base::Result<deploy::Picture> OnTree::draw_path(deploy::ViewOptions view, int frames,
-                                                const view::TransferFunction& tf,
-                                                const volume::Progress& progress, int in_flight) {
+base::Result<deploy::Picture> OnTree::draw(const deploy::ViewOptions& view, deploy::Script script,
+                                           const volume::Progress& progress) {
     const auto size = view.image_size();
     if (!size) {
         return size.error();
     }
+    return deploy::draw_over_links("shearwater bench", target_, view, *size, std::move(script), progress);
+}
+
+base::Result<deploy::Picture> OnTree::draw_path(deploy::ViewOptions view, int frames,
+                                                const view::TransferFunction& tf,
+                                                const volume::Progress& progress, int in_flight) {
     constexpr int until_all_fly = 4;
     const int before = in_flight > 1 ? until_all_fly : 1;
     view.orbit.azimuth -= before * Path::turn;
-    auto picture = deploy::draw_over_links(
-        "shearwater bench", target_, view, *size,
-        deploy::script_of(view, {.tf = tf}, before + frames, Path::turn, in_flight), progress);
+    auto picture =
+        draw(view, deploy::script_of(view, {.tf = tf}, before + frames, Path::turn, in_flight), progress);
     if (picture) {
         picture->each.erase(picture->each.begin(), picture->each.begin() + before);
         picture->seconds = deploy::median(picture->each);

@@ -4,6 +4,7 @@
 #include "common/options/cube_options.h"
 #include "common/options/tree_options.h"
 #include "deploy/picture.h"
+#include "deploy/script.h"
 #include "deploy/target.h"
 #include "deploy/view_options.h"
 
@@ -19,6 +20,10 @@ class OnTree {
     base::Result<deploy::Picture> draw_path(deploy::ViewOptions view, int frames,
                                             const view::TransferFunction& tf,
                                             const volume::Progress& progress, int in_flight = 1);
+
+    // Pictures one after the other, with what changes between them.
+    base::Result<deploy::Picture> draw(const deploy::ViewOptions& view, deploy::Script script,
+                                       const volume::Progress& progress);
 
     int renderers() const { return renderers_; }
     int nodes() const { return nodes_; }  // the server among them

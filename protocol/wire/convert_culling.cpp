@@ -15,7 +15,6 @@ pb::FunctionKey to_wire(const culling::FunctionKey& key) {
     to.set_footprint(key.footprint == culling::Footprint::column ? pb::FOOTPRINT_COLUMN
                                                                  : pb::FOOTPRINT_BLOCK);
     *to.mutable_basis() = to_wire(culling::at_height(key.basis, 1));
-    to.set_rung(static_cast<std::uint32_t>(key.rung));
     to.set_level(static_cast<std::uint32_t>(key.level));
     return to;
 }
@@ -32,9 +31,6 @@ Parsed<culling::FunctionKey> function_key_from(const pb::FunctionKey& key) {
     if (members.size() != 1 || std::abs(members[0].height - 1) > 1e-9) {
         return invalid("function_key.basis: one pin of height 1 is wanted");
     }
-    if (key.rung() >= culling::ladder.size()) {
-        return invalid("function_key.rung: the ladder has no such rung");
-    }
     if (key.level() > volume::max_level) {
         return invalid("function_key.level: there is no such level");
     }
@@ -42,7 +38,6 @@ Parsed<culling::FunctionKey> function_key_from(const pb::FunctionKey& key) {
                                                  ? culling::Footprint::column
                                                  : culling::Footprint::block,
                                 .basis = std::move(members[0].basis),
-                                .rung = static_cast<int>(key.rung()),
                                 .level = static_cast<int>(key.level())};
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 // Of so many voxels a side: those that a box owns all of, since what lies across a cut is counted by neither.
 Cells of(const shear::BrickVolume& volume, std::int64_t voxels) {
-    Cells cells{.box = {}, .known = {}, .n = volume.cube(), .voxels = voxels, .sampled = 1, .row = {}};
+    Cells cells{.box = {}, .known = {}, .n = volume.cube(), .voxels = voxels, .row = {}};
     for (std::size_t a = 0; a < 3; ++a) {
         cells.box.lo[a] = (volume.box().lo[a] + voxels - 1) / voxels;
         cells.box.hi[a] = std::max(volume.box().hi[a] / voxels, cells.box.lo[a]);
@@ -56,8 +56,6 @@ bool within(const Box& box, std::int64_t y, std::int64_t z) {
 
 Cells cells_of_nodes(const shear::BrickVolume& volume, int level, const LeastExtinctions& extinctions) {
     Cells cells = of(volume, std::int64_t{1} << level);
-    // On the first plane, or half-way to the next.
-    cells.sampled = 0.5;
     if (level == 0) {
         reach_out(cells, volume.halo(), shear::Halo::octant);
     }

@@ -67,13 +67,13 @@ namespace shearwater::culling {
 
 HWY_EXPORT(least_depth);
 
-ColumnSheaf::ColumnSheaf(const Slopes& slopes, int first, int count, double middle, double sampled)
+ColumnSheaf::ColumnSheaf(const Slopes& slopes, int first, int count, double middle)
     : first_layer(first), layers(count) {
     base::check(0 < count && count <= max_layers, "a block has 1 to 32 layers");
     for (int layer = 0; layer < count; ++layer) {
         const double near = first + layer - middle;
-        u[static_cast<std::size_t>(layer)] = reach_of(slopes.u, near, near + sampled);
-        v[static_cast<std::size_t>(layer)] = reach_of(slopes.v, near, near + sampled);
+        u[static_cast<std::size_t>(layer)] = reach_of(slopes.u, near);
+        v[static_cast<std::size_t>(layer)] = reach_of(slopes.v, near);
     }
 }
 

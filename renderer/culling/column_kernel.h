@@ -20,8 +20,8 @@ struct ColumnSheaf {
     int first_layer = 0, layers = 0;
     std::array<Reach, max_layers> u{}, v{};
 
-    // Lines half-way at the layer `middle`, which need not be one of them; samples lie in so much of a layer.
-    ColumnSheaf(const Slopes& slopes, int first, int count, double middle, double sampled);
+    // Lines half-way at the layer `middle`, which need not be one of them.
+    ColumnSheaf(const Slopes& slopes, int first, int count, double middle);
 };
 
 // Extinctions in units, a row of cells along u after the other; so many on every side of

@@ -33,7 +33,7 @@ Sheaves sheaves_of(const Task& task, int axis, std::int64_t first, std::int64_t 
         const auto slopes = task.directions.slopes(cell, axis);
         sheaves.push_back(
             slopes ? std::optional(ColumnSheaf(*slopes, static_cast<int>(first), static_cast<int>(count),
-                                               static_cast<double>(task.edge) / 2, task.cells.sampled))
+                                               static_cast<double>(task.edge) / 2))
                    : std::nullopt);
     }
     return sheaves;
@@ -111,9 +111,9 @@ class Strip {
         return static_cast<std::size_t>((w - layers_.lo) * layer_ + (v - rows_.lo + around) * row_ + u -
                                         task_.cells.known.lo[u_] + around);
     }
-    // In depth along the smallest distance of voxels, were all layers of the block there.
+    // Were all layers of the block there.
     std::uint8_t code_of(const ColumnCells& cells, const ColumnSheaf& sheaf) const {
-        const double depth = least_depth(cells, sheaf) * depth_unit;
+        const double depth = least_depth(cells, sheaf) * value_unit;
         const std::int64_t voxels = task_.cells.voxels, first = block_w_ * task_.edge * voxels;
         const std::int64_t all = std::min(task_.edge * voxels, task_.cells.n[w_] - 1 - first);
         return code_below(depth * static_cast<double>(voxels) / static_cast<double>(all));

@@ -10,13 +10,9 @@
 namespace shearwater::culling {
 
 FunctionTable functions_of(const shear::BrickVolume& volume, const FunctionKey& key, const BlockGrid& grid,
-                           const DirectionGrid& directions, bool from_octants, const view::Vec3& spacing,
-                           base::Workers& workers, const std::stop_token& stop) {
-    const double height = ladder[static_cast<std::size_t>(key.rung)];
-    const shear::OpacityTable table(at_height(key.basis, height), volume.mapping().levels());
-    // Of a basis of height 1: what the pin's height is multiplied with.
-    const double length = std::min({spacing.x, spacing.y, spacing.z}) / height;
-    const LeastExtinctions extinctions(table, volume.mapping().bits, length);
+                           const DirectionGrid& directions, bool from_octants, base::Workers& workers,
+                           const std::stop_token& stop) {
+    const LeastExtinctions extinctions(key.basis, volume.mapping());
     const Cells cells =
         from_octants ? cells_of_octants(volume, extinctions) : cells_of_nodes(volume, key.level, extinctions);
     // Octants are too coarse for narrow directions to say more than wide ones.
@@ -41,14 +37,10 @@ Culler::Culler(const shear::BrickVolume& volume, const view::Vec3& spacing, std:
 std::int64_t Culler::prepare(const view::TransferFunction& tf, Kind kind, int level, base::Workers& workers) {
     std::int64_t computed = 0;
     for (const Member& member : members_of(tf)) {
-        const auto rung = rung_below(member.height);
-        if (!rung) {
-            continue;
-        }
-        const FunctionKey key{footprint_of(kind), member.basis, *rung, level};
-        if (!store_.has(key)) {
-            store_.put(key, std::make_shared<FunctionTable>(functions_of(
-                                volume_, key, store_.grid(), directions_, false, spacing_, workers)));
+        const FunctionKey key{footprint_of(kind), member.basis, level};
+        if (store_.find(key) == nullptr) {
+            store_.put(key, std::make_shared<FunctionTable>(
+                                functions_of(volume_, key, store_.grid(), directions_, false, workers)));
             computed += static_cast<std::int64_t>(store_.grid().size());
         }
     }
@@ -57,7 +49,8 @@ std::int64_t Culler::prepare(const view::TransferFunction& tf, Kind kind, int le
 
 VisibleBlocks Culler::visible(const view::Factorisation& factorisation, const view::TransferFunction& tf,
                               const Settings& settings, base::Workers& workers) {
-    const BlockRates rates = store_.rates(tf, footprint_of(settings.kind), factorisation.level());
+    const BlockRates rates = store_.rates(tf, footprint_of(settings.kind), factorisation.level(),
+                                          std::min({spacing_.x, spacing_.y, spacing_.z}));
     return {store_.grid(), visible_blocks(factorisation, store_.grid(), rates, settings, workers)};
 }
 

@@ -9,8 +9,8 @@ namespace shearwater::culling {
 
 // The functions of all of a volume's blocks for a key, from its nodes, or coarser ones from its octants.
 FunctionTable functions_of(const shear::BrickVolume& volume, const FunctionKey& key, const BlockGrid& grid,
-                           const DirectionGrid& directions, bool from_octants, const view::Vec3& spacing,
-                           base::Workers& workers, const std::stop_token& stop = {});
+                           const DirectionGrid& directions, bool from_octants, base::Workers& workers,
+                           const std::stop_token& stop = {});
 
 class Culler {
   public:
@@ -21,7 +21,9 @@ class Culler {
     // Computes what is missing for a transfer function on a level; returns how many functions of blocks.
     std::int64_t prepare(const view::TransferFunction& tf, Kind kind, int level, base::Workers& workers);
 
-    // By what has been prepared.
+    // What has been prepared,
+    const FunctionStore& functions() const { return store_; }
+    // and what may be seen by it.
     VisibleBlocks visible(const view::Factorisation& factorisation, const view::TransferFunction& tf,
                           const Settings& settings, base::Workers& workers);
 

@@ -12,7 +12,7 @@ namespace {
 
 // In units, rounded up: what is certain of it is certain of the code's rate.
 std::int16_t units_of(int code) {
-    return static_cast<std::int16_t>(std::ceil(rate_of(code) / depth_unit));
+    return static_cast<std::int16_t>(std::ceil(rate_of(code) / value_unit));
 }
 
 }  // namespace
@@ -66,8 +66,8 @@ std::uint8_t FunctionBuilder::greatest_certain(const Layers& layers, const Sheaf
 
 void FunctionBuilder::build(const BlockCells& cells, std::span<std::uint8_t> codes) {
     base::check(codes.size() == static_cast<std::size_t>(grid_.cells()), "a code for each direction");
-    const int least = code_below(cells.least * depth_unit);
-    const int most = code_below(cells.greatest * depth_unit);
+    const int least = code_below(cells.least * value_unit);
+    const int most = code_below(cells.greatest * value_unit);
     if (least == most) {
         std::fill(codes.begin(), codes.end(), static_cast<std::uint8_t>(least));
         return;

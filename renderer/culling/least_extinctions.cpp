@@ -5,24 +5,41 @@
 #include <cmath>
 #include <utility>
 
+#include "renderer/shear/opacity_table.h"
+#include "renderer/shear/segment_table.h"
+
 namespace shearwater::culling {
 
 using volume::Index3;
 
-LeastExtinctions::LeastExtinctions(const shear::OpacityTable& table, int bits, double length)
-    : log_codes_per_node_(bits == 8 ? 0 : 4) {
-    const int nodes = (1 << (bits - log_codes_per_node_)) + 1;
+LeastExtinctions::LeastExtinctions(const Basis& basis, const volume::Mapping& mapping)
+    : log_codes_per_node_(mapping.bits == 8 ? 0 : 4) {
+    const view::TransferFunction tf = at_height(basis, least_height);
+    const shear::SegmentTable table(tf, mapping.levels(), shear::OpacityTable(tf, mapping.levels()));
+    const int last = table.node_of(static_cast<float>(mapping.levels()));
     // The table counts halvings of the light. What a ray gathers is rounded, by less than this.
     constexpr double rounding = 1.0 / 1024;
-    const double scale =
-        static_cast<double>(table.depth_unit()) * std::log(2.0) * length / depth_unit * (1 - rounding);
-    least_.emplace_back();
-    for (int node = 0; node < nodes; ++node) {
-        const double units = static_cast<double>(table.nodes()[node].extinction) * scale;
-        least_[0].push_back(
-            static_cast<std::int16_t>(std::floor(std::min(units, static_cast<double>(most_units)))));
+    const double scale = std::log(2.0) / least_height / value_unit * (1 - rounding);
+    std::vector<std::int16_t> stretches;  // from each of the table's nodes to the next, from -1 on
+    for (int node = -1; node <= last; ++node) {
+        const shear::SegmentTable::Node& from = table.nodes()[node];
+        const shear::SegmentTable::Node& to = table.nodes()[node + 1];
+        const double halvings = (static_cast<double>(to.depth) - static_cast<double>(from.depth)) +
+                                (static_cast<double>(to.depth_rest) - static_cast<double>(from.depth_rest));
+        stretches.push_back(static_cast<std::int16_t>(
+            std::floor(std::clamp(halvings * scale, 0.0, static_cast<double>(most_units)))));
     }
-    for (std::size_t half = 1; 2 * half <= static_cast<std::size_t>(nodes); half *= 2) {
+    // About each node half-way to those beside it: farther than samples and the ends of segments are rounded.
+    const int count = (1 << (mapping.bits - log_codes_per_node_)) + 1;
+    const int half_way = table.node_of(static_cast<float>(1 << log_codes_per_node_)) / 2;
+    least_.emplace_back();
+    for (int node = 0; node < count; ++node) {
+        const int first = std::clamp((2 * node - 1) * half_way, -1, last);
+        const int end = std::clamp((2 * node + 1) * half_way, first + 1, last + 1);
+        least_[0].push_back(
+            *std::min_element(stretches.begin() + (first + 1), stretches.begin() + (end + 1)));
+    }
+    for (std::size_t half = 1; 2 * half <= static_cast<std::size_t>(count); half *= 2) {
         const std::vector<std::int16_t>& finer = least_.back();
         std::vector<std::int16_t> least;
         for (std::size_t node = 0; node + half < finer.size(); ++node) {

@@ -1,28 +1,34 @@
 #pragma once
 // The least extinction that a sample or segment in a cell between nodes may have: a lower bound for every way
-// to sample it, along whichever axis, and whatever lies between its nodes.
+// to sample it, along whichever axis, whatever lies between its nodes, and however it is classified.
 //
-// Extinctions are whole units, rounded down, of optical depth along the smallest distance of two voxels.
+// A segment (shear/segment_table.h) has the mean of the stretches of values that it passes through, which may
+// be much shorter than from code to code: that of the thinnest hole counts. A sample has the mean about one
+// code, or between two of them, of the same stretches.
+//
+// Extinctions are whole units, rounded down, of the least height's (common/culling/family.h).
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "common/culling/family.h"
 #include "common/volume/box.h"
+#include "common/volume/mapping.h"
 #include "renderer/shear/code_volume.h"
-#include "renderer/shear/opacity_table.h"
 
 namespace shearwater::culling {
 
-inline constexpr double depth_unit = 1.0 / 4096;
-// What is more is opaque enough.
-inline constexpr std::int16_t most_units = 32767;
+// Of a shape's value. 32 cells of the greatest have a sum that is a word. Nor does a sum of excesses over a
+// mean that is cut off at +-2^15 (sheaf.cpp) hide a lack: both together are 2^16 at least only in more cells.
+inline constexpr double value_unit = 1.0 / 2040;
+inline constexpr std::int16_t most_units = 2040;
 
 // The least extinction between two codes, of all that interpolation may give.
 class LeastExtinctions {
   public:
-    // For codes of so many bits, along `length` of the world.
-    LeastExtinctions(const shear::OpacityTable& table, int bits, double length);
+    // Of a basis, for a mapping's codes.
+    LeastExtinctions(const Basis& basis, const volume::Mapping& mapping);
 
     // Codes that are values, min <= max.
     std::int16_t between(std::uint16_t min, std::uint16_t max) const;

@@ -8,9 +8,7 @@ namespace {
 
 void spread(const Interval& slopes, int layers, std::array<Reach, BlockCells::max_edge>& cells) {
     for (int layer = 0; layer < layers; ++layer) {
-        // From the middle to the layer's first plane, and half-way to the next.
-        const double near = layer - layers / 2.0, far = near + 0.5;
-        cells[static_cast<std::size_t>(layer)] = reach_of(slopes, near, far);
+        cells[static_cast<std::size_t>(layer)] = reach_of(slopes, layer - layers / 2.0);
     }
 }
 

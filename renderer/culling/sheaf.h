@@ -25,7 +25,6 @@ struct Sheaf {
     std::array<Reach, BlockCells::max_edge> u{}, v{};
     Reach bundles_u{}, bundles_v{};  // of those that meet the block
 
-    // Samples lie on the first plane of a layer or half-way to the next.
     Sheaf(int along, const Slopes& slopes, const std::array<int, 3>& counts);
 };
 

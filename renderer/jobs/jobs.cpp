@@ -17,11 +17,12 @@
 
 namespace shearwater::jobs {
 
-Jobs::Jobs(int threads, std::function<void(leaf::JobEvent)> tell)
+Jobs::Jobs(int threads, std::function<void(leaf::JobEvent)> tell, std::optional<cache::FunctionCache> kept)
     : tell_(std::move(tell)),
       loaders_(threads),
       drawers_(threads),
-      finders_(threads, base::Workers::Priority::background) {
+      finders_(threads, base::Workers::Priority::background),
+      kept_(std::move(kept)) {
     boost::asio::post(finding_, [] { base::run_in_background(); });
 }
 
@@ -72,6 +73,10 @@ void Jobs::perform(leaf::Effect effect) {
         });
     } else if (auto* finding = std::get_if<leaf::Find>(&effect)) {
         boost::asio::post(loading_, [this, job = std::move(*finding), stop = begin(finding->job)] {
+            if (find_kept(job, stop)) {
+                end(job.job);
+                return;
+            }
             find(job, true, loaders_, stop);
             boost::asio::post(finding_, [this, job, stop] {
                 find(job, false, finders_, stop);
@@ -108,10 +113,10 @@ base::Result<Jobs::Source> Jobs::open(leaf::Job job, const leaf::Share& share, c
     return Source(source);
 }
 
-void Jobs::put(std::optional<Drawable> cube) {
+void Jobs::put(std::optional<Drawable> cube, std::optional<cache::Origin> origin) {
     {
         const std::lock_guard lock(mutex_);
-        found_in_ = cube ? cube->volume : nullptr;
+        found_in_ = {cube ? cube->volume : nullptr, std::move(origin)};
     }
     boost::asio::post(drawing_, boost::asio::use_future([&] {
                           cube_.reset();  // before what takes its place
@@ -153,6 +158,8 @@ void Jobs::count(const leaf::Count& job, const std::stop_token& stop) {
 
 void Jobs::load(const leaf::Load& job, const std::stop_token& stop) {
     put(std::nullopt);
+    // As the file is before it is read: whatever is written to it meanwhile makes it another.
+    std::optional<cache::Origin> origin = cache::origin_of(job.share.path, job.share.hdu, job.share.plane);
     const auto source = open(job.job, job.share, stop);
     if (!source) {
         tell_(leaf::Loaded{job.job, source.error()});
@@ -166,13 +173,15 @@ void Jobs::load(const leaf::Load& job, const std::stop_token& stop) {
         counting.emplace(**source, job.share.box, n);
     }
     volume::VoxelSource& voxels = counting ? *counting : **source;
-    auto bricks =
-        shear::BrickVolume::load(voxels, job.share.box, n, job.mapping, loaders_, progress, stop);
+    auto bricks = shear::BrickVolume::load(voxels, job.share.box, n, job.mapping, loaders_, progress, stop);
     if (!bricks) {
         tell_(leaf::Loaded{job.job, bricks.error()});
         return;
     }
-    put(Drawable{std::make_shared<const shear::BrickVolume>(*std::move(bricks))});
+    if (dynamic_cast<const LinkSource*>(source->get()) != nullptr) {
+        origin.reset();
+    }
+    put(Drawable{std::make_shared<const shear::BrickVolume>(*std::move(bricks))}, std::move(origin));
     base::release_free_memory();
     tell_memory();
     tell_(leaf::Loaded{job.job, {}, counting ? std::optional(counting->histogram()) : std::nullopt});
@@ -240,21 +249,48 @@ void Jobs::draw(const leaf::Draw& job, const std::stop_token& stop) {
     }
 }
 
-void Jobs::find(const leaf::Find& job, bool coarse, base::Workers& workers, const std::stop_token& stop) {
-    Volume volume;
-    {
-        const std::lock_guard lock(mutex_);
-        volume = found_in_;
+Jobs::FoundIn Jobs::found_in() {
+    const std::lock_guard lock(mutex_);
+    return found_in_;
+}
+
+std::optional<cache::Content> Jobs::content_of(const FoundIn& in, const leaf::Find& job) const {
+    if (!kept_ || !in.origin || in.volume == nullptr) {
+        return std::nullopt;
     }
+    return cache::Content{.origin = *in.origin,
+                          .n = in.volume->cube(),
+                          .box = in.volume->box(),
+                          .mapping = in.volume->mapping(),
+                          .block_edge = job.block_edge,
+                          .side = job.side,
+                          .key = job.key};
+}
+
+bool Jobs::find_kept(const leaf::Find& job, const std::stop_token& stop) {
+    const auto content = content_of(found_in(), job);
+    auto table = content && !stop.stop_requested() ? kept_->find(*content) : std::nullopt;
+    if (!table) {
+        return false;
+    }
+    tell_(leaf::Found{job.job, *std::move(table), false});
+    return true;
+}
+
+void Jobs::find(const leaf::Find& job, bool coarse, base::Workers& workers, const std::stop_token& stop) {
+    const FoundIn in = found_in();
     // Octants are of voxels. Without a volume another is being loaded, and this job is told to stop.
-    if (volume == nullptr || stop.stop_requested() || (coarse && job.key.level > 0)) {
+    if (in.volume == nullptr || stop.stop_requested() || (coarse && job.key.level > 0)) {
         return;
     }
     culling::FunctionTable table =
-        culling::functions_of(*volume, job.key, culling::BlockGrid(volume->cube(), job.block_edge),
-                              culling::DirectionGrid(job.side), coarse, job.spacing, workers, stop);
+        culling::functions_of(*in.volume, job.key, culling::BlockGrid(in.volume->cube(), job.block_edge),
+                              culling::DirectionGrid(job.side), coarse, workers, stop);
     if (stop.stop_requested()) {
         return;
+    }
+    if (const auto content = coarse ? std::nullopt : content_of(in, job)) {
+        kept_->keep(*content, table);
     }
     tell_(leaf::Found{job.job, std::move(table), coarse});
     if (!coarse) {
@@ -263,11 +299,7 @@ void Jobs::find(const leaf::Find& job, bool coarse, base::Workers& workers, cons
 }
 
 void Jobs::sample_ray(const leaf::SampleRay& job) {
-    Volume volume;
-    {
-        const std::lock_guard lock(mutex_);
-        volume = found_in_;
-    }
+    const Volume volume = found_in().volume;
     const bool is_there = volume != nullptr && volume->cube() == job.ray.lattice.n;
     wire::RayPart part{job.number, {}, !is_there};
     if (is_there) {

@@ -15,6 +15,7 @@
 
 #include "common/base/workers.h"
 #include "common/volume/source.h"
+#include "renderer/cache/function_cache.h"
 #include "renderer/jobs/link_source.h"
 #include "renderer/leaf/leaf.h"
 #include "renderer/shear/brick_volume.h"
@@ -25,8 +26,10 @@ namespace shearwater::jobs {
 
 class Jobs {
   public:
-    // `tell` is called from the jobs' threads and must only pass the event on.
-    Jobs(int threads, std::function<void(leaf::JobEvent)> tell);
+    // `tell` is called from the jobs' threads and must only pass the event on. Opacity functions are kept in
+    // `kept`, if anywhere.
+    Jobs(int threads, std::function<void(leaf::JobEvent)> tell,
+         std::optional<cache::FunctionCache> kept = std::nullopt);
     ~Jobs();  // stops what runs
     Jobs(const Jobs&) = delete;
     Jobs& operator=(const Jobs&) = delete;
@@ -41,6 +44,8 @@ class Jobs {
     void count(const leaf::Count& count, const std::stop_token& stop);
     void load(const leaf::Load& load, const std::stop_token& stop);
     void draw(const leaf::Draw& draw, const std::stop_token& stop);
+    // Tells the functions if they are kept.
+    bool find_kept(const leaf::Find& find, const std::stop_token& stop);
     void find(const leaf::Find& find, bool coarse, base::Workers& workers, const std::stop_token& stop);
     void sample_ray(const leaf::SampleRay& job);
     void sketch(leaf::Job job, const leaf::Share& share, int level, volume::VoxelSource& source,
@@ -60,7 +65,7 @@ class Jobs {
     };
     Drawable* drawable(const leaf::Draw& draw);
     // What the drawing thread draws from is changed there, once what is being drawn is finished.
-    void put(std::optional<Drawable> cube);
+    void put(std::optional<Drawable> cube, std::optional<cache::Origin> origin = std::nullopt);
     void put(SketchToDraw sketch);
 
     std::function<void(leaf::JobEvent)> tell_;
@@ -72,7 +77,15 @@ class Jobs {
     std::mutex mutex_;
     std::map<leaf::Job, std::stop_source> running_;
     std::map<leaf::Job, std::shared_ptr<LinkSource>> link_sources_;
-    Volume found_in_;  // the cube, for the finding and the picking thread
+    // The cube, for the finding and the picking thread, and what file it is if it is one that this machine can see.
+    struct FoundIn {
+        Volume volume;
+        std::optional<cache::Origin> origin;
+    };
+    FoundIn found_in();
+    std::optional<cache::Content> content_of(const FoundIn& in, const leaf::Find& find) const;
+    std::optional<cache::FunctionCache> kept_;
+    FoundIn found_in_;
     boost::asio::thread_pool drawing_{1}, loading_{1}, finding_{1}, picking_{1};
 };
 

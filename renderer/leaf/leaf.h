@@ -69,7 +69,6 @@ struct Find {
     culling::FunctionKey key;
     std::int64_t block_edge;
     int side;  // of the direction grid
-    view::Vec3 spacing;
 };
 // Goes on beside all others.
 struct SampleRay {

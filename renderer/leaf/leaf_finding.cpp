@@ -55,8 +55,7 @@ void Leaf::find_next(Effects& effects) {
         if (there && !told_.contains(wanted.number)) {
             find_job_ = ++last_job_;
             finding_ = wanted.number;
-            effects.jobs.emplace_back(
-                Find{find_job_, wanted.key, block_edge_, side_, share_->lattice.spacing});
+            effects.jobs.emplace_back(Find{find_job_, wanted.key, block_edge_, side_});
             return;
         }
     }

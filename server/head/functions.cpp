@@ -20,10 +20,8 @@ bool Functions::need(wire::LinkId client, const view::TransferFunction& tf, cull
     std::vector<culling::Basis> bases;
     std::vector<FunctionKey> keys;
     for (const culling::Member& member : culling::members_of(tf)) {
-        if (const auto rung = culling::rung_below(member.height)) {
-            bases.push_back(member.basis);
-            keys.push_back({culling::footprint_of(kind), member.basis, *rung, level});
-        }
+        bases.push_back(member.basis);
+        keys.push_back({culling::footprint_of(kind), member.basis, level});
     }
     Need& need = needs_[client];
     if (need.bases != bases || need.kind != kind) {

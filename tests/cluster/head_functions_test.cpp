@@ -45,17 +45,18 @@ TEST(HeadFunctions, AreAskedForOnceAViewNeedsThem) {
     ASSERT_EQ(want.wants_size(), 1);
     const auto key = wire::function_key_from(want.wants(0).key()).value();
     EXPECT_EQ(key.footprint, culling::Footprint::column);
-    EXPECT_EQ(culling::ladder[static_cast<std::size_t>(key.rung)], 0.3);
     EXPECT_FALSE(functions.take_wanted(start + 3s)) << "no news";
 }
 
-// No function is asked for again where only a height changes, within a rung or to one that is there.
-TEST(HeadFunctions, OutliveAnotherHeight) {
+// No function is asked for again where only a height changes.
+TEST(HeadFunctions, AreOfAllHeights) {
     Functions functions(1);
     functions.need(client, hats(0.5, 0.4), Kind::opof, 0);
     EXPECT_EQ(wanted(functions, start + 1s).wants_size(), 1);
-    functions.need(client, hats(0.5, 0.55), Kind::opof, 0);
-    EXPECT_FALSE(functions.take_wanted(start + 9s));
+    for (const double height : {0.002, 0.1, 0.55, 0.9, 1.0}) {
+        functions.need(client, hats(0.5, height), Kind::opof, 0);
+        EXPECT_FALSE(functions.take_wanted(start + 9s)) << height;
+    }
 }
 
 TEST(HeadFunctions, WaitUntilAShapeRests) {

@@ -76,6 +76,44 @@ class JobsTest : public testing::Test {
     Jobs jobs_;
 };
 
+// What another has found of the same cube is told at once, the same to the byte; of another mapping it is
+// not.
+TEST_F(JobsTest, FunctionsThatAreKeptAreNotFoundAgain) {
+    const leaf::Share share = share_of(write(0));
+    const std::string folder = scratch_.path("kept");
+    const view::TransferFunction tf{
+        .opacity_pins = {view::Flat{0.5}}, .colour_pins = {{0, {1, 1, 1}}}, .background = {}};
+    const leaf::Find find{9, {culling::Footprint::column, culling::members_of(tf).at(0).basis, 0}, 32, 12};
+    std::vector<std::string> logged;
+    // The coarse functions, if they are told first, and all.
+    const auto found = [&](const volume::Mapping& mapping) {
+        std::pair<int, culling::FunctionTable> functions;
+        Jobs jobs(
+            1, [this](leaf::JobEvent event) { on_event(std::move(event)); },
+            cache::FunctionCache(folder, [&](const std::string& line) { logged.push_back(line); }));
+        jobs.perform(leaf::Load{1, share, mapping});
+        const auto loaded = next<leaf::Loaded>();
+        EXPECT_TRUE(loaded && loaded->status);
+        jobs.perform(find);
+        auto told = next<leaf::Found>();
+        while (told && told->coarse) {
+            ++functions.first;
+            told = next<leaf::Found>();
+        }
+        EXPECT_TRUE(told);
+        functions.second = told ? told->table : culling::FunctionTable{};
+        return functions;
+    };
+    const auto first = found({0, 250});
+    EXPECT_EQ(first.first, 1);
+    EXPECT_FALSE(first.second.codes.empty());
+    const auto again = found({0, 250});
+    EXPECT_EQ(again.first, 0) << "kept";
+    EXPECT_EQ(again.second, first.second);
+    EXPECT_EQ(found({0, 251}).first, 1);
+    EXPECT_TRUE(logged.empty());
+}
+
 TEST_F(JobsTest, ASketchComesBeforeTheCount) {
     jobs_.perform(leaf::Count{1, share_of(write(0)), level});
     const auto sketched = next<leaf::Sketched>();

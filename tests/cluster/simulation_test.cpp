@@ -202,6 +202,41 @@ TEST(Simulation, AnyStormOfDeathsBetweenBandsEndsWhole) {
     storm({.seeds = 10, .size = size});
 }
 
+// Functions do for all heights of a pin: changing them asks renderers for none.
+TEST(Simulation, ChangingHeightsFindsNoFunctions) {
+    const volume::Index3 n{97, 97, 65};
+    Waves source(true);
+    support::Simulation simulation(3, *tree::full_tree(2, 2), n, source);
+    for (const tree::Place place : all_daemons(simulation)) {
+        simulation.start_daemon(place);
+    }
+    wire::View view = view_of(n);
+    view.level_of_detail = false;
+    view.camera = view::camera_on({.azimuth = 0, .elevation = 0}, {.n = n, .spacing = {1, 1, 1}},
+                                  view::Projection::parallel);
+    view.culling = {.kind = culling::Kind::opof};
+    // Culled bricks of the frame by a height.
+    const auto draw = [&](double height) {
+        view.tf.opacity_pins = {view::Flat{height}};
+        const std::uint64_t culled = simulation.culled_bricks();
+        const std::uint64_t revision = simulation.ask(view);
+        EXPECT_TRUE(simulation.run_until([&] { return simulation.answered_whole(revision); }));
+        simulation.fabric().pass_time(std::chrono::seconds(1));
+        simulation.run_until([] { return false; }, std::chrono::seconds(1));
+        return simulation.culled_bricks() - culled;
+    };
+    for (int frame = 0; frame < 50 && draw(0.5) == 0; ++frame) {
+    }
+    const int renderers = 2;
+    EXPECT_EQ(simulation.finds(), renderers);
+    std::uint64_t most = 0;
+    for (const double height : {0.01, 0.2, 0.35, 0.65, 0.9, 0.99, 0.3, 1.0}) {
+        most = std::max(most, draw(height));
+    }
+    EXPECT_GT(most, 0U);
+    EXPECT_EQ(simulation.finds(), renderers);
+}
+
 // Functions are found, lost with whoever carries them, and found again; whole pictures stay the same
 // throughout.
 TEST(Simulation, CullingOverAnyStormOfDeathsEndsWhole) {

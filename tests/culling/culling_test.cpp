@@ -11,37 +11,84 @@
 namespace shearwater::culling {
 namespace {
 
-void expect_no_difference(test::FloatCube& cube, int pictures, unsigned seed, const Settings& settings,
-                          double bound, int side = DirectionGrid::default_side) {
+struct Pictures {
+    int count;
+    unsigned seed;
+    Settings settings;
+    double bound;
+    int side = DirectionGrid::default_side;
+    // Transfer functions and how they are applied: all sorts, or top-hats, pre-integrated.
+    bool sharp = false;
+};
+
+void expect_no_difference(test::FloatCube& cube, const Pictures& pictures) {
     base::Workers workers(2);
-    std::mt19937 random(seed);
+    std::mt19937 random(pictures.seed);
     std::uint64_t culled = 0, opaque = 0;
     const auto volume = test::bricks_of(cube, workers);
     const view::Lattice lattice{.n = cube.n(), .spacing = {1, 1, 1}};
-    Culler culler(volume, lattice.spacing, BlockGrid::default_edge, side);
-    for (int n = 0; n < pictures; ++n) {
-        const auto tf = bench::function_at_random(random);
+    Culler culler(volume, lattice.spacing, BlockGrid::default_edge, pictures.side);
+    for (int n = 0; n < pictures.count; ++n) {
+        const auto tf =
+            pictures.sharp ? bench::top_hats_at_random(random) : bench::function_at_random(random);
         const auto camera = bench::camera_at_random(random, lattice);
-        const auto sampling = bench::sampling_at_random(random);
-        const auto p =
-            bench::compare(volume, culler, settings, tf, camera, {96, 80}, lattice, sampling, workers);
-        EXPECT_LE(p.difference, bound) << seed << ", " << n;
+        auto sampling = bench::sampling_at_random(random);
+        if (pictures.sharp) {
+            sampling.classify = view::Classify::pre_integrated;
+        }
+        const auto p = bench::compare(volume, culler, pictures.settings, tf, camera, {96, 80}, lattice,
+                                      sampling, workers);
+        EXPECT_LE(p.difference, pictures.bound) << pictures.seed << ", " << n;
         culled += p.with.bricks_culled;
         opaque += p.with.bricks_total - p.with.bricks_empty;
     }
     std::cout << 100.0 * static_cast<double>(culled) / static_cast<double>(opaque) << " % culled\n";
-    EXPECT_TRUE(culled > 0 || settings.kind == Kind::pof);
+    EXPECT_TRUE(culled > 0 || pictures.settings.kind == Kind::pof);
 }
 
 TEST(Culling, ChangesNoPicture) {
     test::FloatCube waves = shells({110, 90, 101});
     test::FloatCube noise = test::noise_cube({110, 90, 101});
     for (const Kind kind : {Kind::opof, Kind::opof_linear, Kind::pof}) {
-        expect_no_difference(waves, 6, 1, {.kind = kind}, 1.0 / 255, 12);
-        expect_no_difference(noise, 6, 2, {.kind = kind}, 1.0 / 255, 12);
-        expect_no_difference(noise, 6, 3, {.kind = kind, .threshold = 0.95}, 0.05, 12);
+        expect_no_difference(waves, {6, 1, {.kind = kind}, 1.0 / 255, 12});
+        expect_no_difference(noise, {6, 2, {.kind = kind}, 1.0 / 255, 12});
+        expect_no_difference(noise, {6, 3, {.kind = kind, .threshold = 0.95}, 0.05, 12});
     }
-    expect_no_difference(waves, 6, 4, {.kind = Kind::opof, .threshold = 0.95}, 0.05);
+    expect_no_difference(waves, {3, 4, {.kind = Kind::opof, .threshold = 0.95}, 0.05});
+}
+
+// Rays along stripes of two neighbouring codes see through a slit between them, where no voxel has it.
+TEST(Culling, CountsWhatLiesBetweenCodes) {
+    base::Workers workers(2);
+    test::FloatCube stripes({110, 90, 101}, [](double x, double y, double z) {
+        const auto odd = [](double at) { return std::fmod(at, 2) == 0 ? 0.0 : 1.0; };
+        return z < 40 ? static_cast<float>((126 + odd(x) * odd(y)) / 254) : static_cast<float>(x / 110);
+    });
+    const auto volume = test::bricks_of(stripes, workers);
+    const view::Lattice lattice{.n = stripes.n(), .spacing = {1, 1, 1}};
+    const view::TransferFunction tf{.opacity_pins = {view::Flat{0.4}, view::Blank{126.45 / 254, 126.7 / 254}},
+                                    .colour_pins = {{0, {0.2, 0.3, 1}}, {1, {1, 0.8, 0.3}}},
+                                    .background = {}};
+    Culler culler(volume, lattice.spacing, BlockGrid::default_edge, 12);
+    for (const double elevation : {0.0, 2.0}) {
+        for (const bool along : {true, false}) {
+            const auto camera = view::camera_on({.azimuth = along ? 180.0 : 90.0, .elevation = elevation},
+                                                lattice, view::Projection::parallel, 30, 60);
+            const auto p = bench::compare(
+                volume, culler, {.kind = Kind::opof}, tf, camera, {96, 80}, lattice,
+                view::sampling(view::Quality::high, false, view::Classify::pre_integrated), workers);
+            EXPECT_LE(p.difference, 1.0 / 255) << elevation;
+            EXPECT_TRUE(along || p.with.bricks_culled > 0);
+        }
+    }
+}
+
+// All that segments pass through counts.
+TEST(Culling, ChangesNoPreIntegratedPicture) {
+    test::FloatCube waves = shells({110, 90, 101});
+    for (const Kind kind : {Kind::opof, Kind::opof_linear}) {
+        expect_no_difference(waves, {6, 5, {.kind = kind, .threshold = 0.6}, 0.4, 12, true});
+    }
 }
 
 }  // namespace

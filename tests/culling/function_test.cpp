@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
 
 #include "common/culling/rates.h"
 #include "tests/culling/block.h"
@@ -17,21 +18,27 @@ namespace {
 using volume::Box;
 using volume::Index3;
 
-// The mean extinction of a line's samples on planes 1 / `per_cell` apart along its axis that the block owns;
-// none where it has no sample.
+// The mean extinction of a line's samples on planes 1 / `per_cell` apart along its axis that the block owns,
+// or of its segments between those planes that lie in the block; none where it has none.
 std::optional<double> mean_along(const Block& block, int axis, double u, double v,
-                                 const std::array<double, 3>& through, int per_cell) {
+                                 const std::array<double, 3>& through, int per_cell, bool segments) {
     const auto w = static_cast<std::size_t>(axis);
-    double sum = 0;
-    int count = 0;
-    for (std::int64_t n = block.box.lo[w] * per_cell; n < block.box.hi[w] * per_cell; ++n) {
+    const auto on_plane = [&](std::int64_t n) {
         const double at = static_cast<double>(n) / per_cell;
         std::array<double, 3> p = through;
         p[w] = at;
         p[(w + 1) % 3] += u * (at - through[w]);
         p[(w + 2) % 3] += v * (at - through[w]);
-        if (block.owns(p)) {
-            sum += block.extinction(p);
+        return p;
+    };
+    double sum = 0;
+    int count = 0;
+    for (std::int64_t n = block.box.lo[w] * per_cell; n < block.box.hi[w] * per_cell; ++n) {
+        const auto p = on_plane(n), q = on_plane(n + 1);
+        auto inside = q;
+        inside[w] = p[w];  // what ends on the block's last plane lies in it
+        if (block.owns(p) && (!segments || block.owns(inside))) {
+            sum += segments ? block.extinction(p, q) : block.extinction(p);
             ++count;
         }
     }
@@ -56,16 +63,16 @@ void expect_below_every_line(const Block& block, int side, int lines, unsigned s
                          share(random) * static_cast<double>(block.box.hi[a] - block.box.lo[a]);
         }
         builder.grid().cells_of(axis, {{u, u}, {v, v}}, cells);
-        for (const int per_cell : {1, 2}) {
-            if (const auto mean = mean_along(block, axis, u, v, through, per_cell)) {
+        for (const auto& [per_cell, segments] : {std::pair{1, false}, {2, false}, {1, true}, {2, true}}) {
+            if (const auto mean = mean_along(block, axis, u, v, through, per_cell, segments)) {
                 ++met;
                 const int code = *std::min_element(codes.begin(), codes.end());
-                double rate = rate_of(code);
+                double rate = block.least_of(code);
                 for (const int cell : cells) {
-                    rate = std::max(rate, rate_of(codes[static_cast<std::size_t>(cell)]));
+                    rate = std::max(rate, block.least_of(codes[static_cast<std::size_t>(cell)]));
                 }
-                EXPECT_GE(*mean * (1 + 1e-6), cells.size() == 1 ? rate : rate_of(code))
-                    << axis << ": " << u << ", " << v << " by " << per_cell;
+                EXPECT_GE(*mean * (1 + 1e-6), cells.size() == 1 ? rate : block.least_of(code))
+                    << axis << ": " << u << ", " << v << " by " << per_cell << (segments ? " segments" : "");
             }
         }
     }
@@ -84,8 +91,8 @@ TEST(OpacityFunction, IsBelowEveryLine) {
     for (test::FloatCube* cube : {&noise, &waves, &spotted}) {
         for (const int bits : {8, 16}) {
             const auto volume = test::bricks_of(*cube, workers, {.bits = bits});
-            for (const auto& tf :
-                 {ramp(0.2, 0.02, 0.9, 0.3), ramp(0.3, 0, 0.6, 0.9), ramp(0.1, 0.4, 0.5, 0.05)}) {
+            for (const auto& tf : {ramp(0.2, 0.02, 0.9, 0.3), ramp(0.3, 0, 0.6, 0.9),
+                                   ramp(0.1, 0.4, 0.5, 0.05), step(0.3, 0.02, 0.3)}) {
                 for (const Box& box : {Box{{0, 0, 0}, {32, 32, 32}}, Box{{32, 16, 3}, {39, 33, 35}}}) {
                     expect_below_every_line(Block(volume, tf, box), 12, 300, ++seed);
                 }
@@ -99,6 +106,12 @@ TEST(OpacityFunction, IsBelowEveryLineInNarrowCells) {
     test::FloatCube waves = shells({34, 34, 34});
     const auto volume = test::bricks_of(waves, workers);
     expect_below_every_line(Block(volume, ramp(0.1, 0.01, 0.9, 0.5), {{0, 0, 0}, {32, 32, 32}}), 36, 3000, 7);
+    // A segment counts as a whole, though it may have its other end in another cell.
+    test::FloatCube steep({34, 34, 34}, [](double x, double y, double) {
+        return static_cast<float>(0.5 + 0.02 * std::sin(1.3 * (x + y)));
+    });
+    const auto nearly_even = test::bricks_of(steep, workers, {.bits = 16});
+    expect_below_every_line(Block(nearly_even, step(0.5, 0.02, 0.3), {{0, 0, 0}, {32, 32, 32}}), 36, 3000, 8);
 }
 
 // Of a homogeneous block it is what the block has, in every direction.
@@ -112,8 +125,42 @@ TEST(OpacityFunction, IsExactForAHomogeneousBlock) {
         std::vector<std::uint8_t> codes(648);
         builder.build(block.cells(), codes);
         for (const std::uint8_t code : codes) {
-            EXPECT_LE(rate_of(code), -std::log1p(-opacity));
-            EXPECT_GE(rate_of(code), 0.9 * -std::log1p(-opacity));
+            EXPECT_LE(block.least_of(code), -std::log1p(-opacity));
+            EXPECT_GE(block.least_of(code), 0.9 * -std::log1p(-opacity));
+        }
+    }
+}
+
+// Of all that lies between two codes: samples, and segments however short.
+TEST(LeastExtinctions, AreBelowSamplesAndSegments) {
+    base::Workers workers(1);
+    test::FloatCube cube = test::noise_cube({4, 4, 4});
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> share(0, 1);
+    for (const int bits : {8, 16}) {
+        const auto volume = test::bricks_of(cube, workers, {.bits = bits});
+        const int levels = volume.mapping().levels();
+        for (int trial = 0; trial < 40; ++trial) {
+            // A hole between codes, or a ramp.
+            const double hole = share(random);
+            const view::TransferFunction tf =
+                trial % 2 == 0 ? view::TransferFunction{{view::Flat{1}, view::Blank{hole, hole + 0.001}},
+                                                        {{0, {1, 1, 1}}},
+                                                        {}}
+                               : ramp(hole, 0.9 * share(random), 1, 0.5 * share(random));
+            const Block block(volume, at_height(members_of(tf).at(0).basis, 2 * least_height), volume.box());
+            const LeastExtinctions least = block.extinctions();
+            for (int n = 0; n < 400; ++n) {
+                const int min = 1 + static_cast<int>(share(random) * (levels - 20)), max = min + n % 20;
+                const double bound =
+                    least.between(static_cast<std::uint16_t>(min), static_cast<std::uint16_t>(max)) *
+                    value_unit * 2 * least_height;
+                const double from = min + share(random) * (max - min), to = min + share(random) * (max - min);
+                EXPECT_LE(bound, block.sample_extinction(from)) << min << ", " << max;
+                for (const double end : {to, from, from + 0.01 * (to - from)}) {
+                    EXPECT_LE(bound, block.segment_extinction(from, end)) << min << ", " << max;
+                }
+            }
         }
     }
 }

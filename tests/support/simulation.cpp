@@ -172,13 +172,14 @@ struct Simulation::Renderer final : Simulation::Daemon {
             }
             tell(leaf::RaySampled{ray->job, std::move(part)});
         } else if (const auto* find = std::get_if<leaf::Find>(&effect); find != nullptr && bricks) {
+            ++sim.finds_;
             for (const bool coarse : {true, false}) {
                 if (!coarse || find->key.level == 0) {
                     tell(leaf::Found{
                         find->job,
-                        culling::functions_of(
-                            *bricks, find->key, culling::BlockGrid(bricks->cube(), find->block_edge),
-                            culling::DirectionGrid(find->side), coarse, find->spacing, sim.workers_),
+                        culling::functions_of(*bricks, find->key,
+                                              culling::BlockGrid(bricks->cube(), find->block_edge),
+                                              culling::DirectionGrid(find->side), coarse, sim.workers_),
                         coarse});
                 }
             }

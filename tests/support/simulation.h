@@ -94,6 +94,8 @@ class Simulation {
     bool answered(std::uint64_t revision) const;
     bool answered_whole(std::uint64_t revision) const;
 
+    // How many functions renderers have been asked to find so far.
+    int finds() const { return finds_; }
     // That renderers have left out of frames so far.
     std::uint64_t culled_bricks() const { return culled_bricks_; }
 
@@ -127,6 +129,7 @@ class Simulation {
     int frames_ = 0;
     std::uint64_t culled_bricks_ = 0;
     std::vector<wire::PickAnswer> picked_;
+    int finds_ = 0;
 };
 
 }  // namespace shearwater::support

@@ -416,7 +416,6 @@ volume::Summary summary() {
 culling::FunctionKey function_key() {
     return {.footprint = culling::Footprint::column,
             .basis = {.shape = view::Hat{0.5, 0.125, 0.25, 1}, .blanks = {{0.25, 0.375}}},
-            .rung = 2,
             .level = 1};
 }
 
