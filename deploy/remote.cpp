@@ -42,15 +42,15 @@ std::vector<std::string> serving_command(const RemoteCube& cube, const TargetOpt
     const std::vector<std::string> tree = options.tree.arguments();
     arguments.insert(arguments.end(), tree.begin(), tree.end());
     arguments.insert(arguments.end(), {"--threads", std::to_string(options.threads), "--log", "warn"});
-    std::string line = "exec " + quoted(options.remote.program) + " serve --stdio";
+    std::string line = "exec " + shell_word(options.remote.program) + " serve --stdio";
     for (const std::string& argument : arguments) {
-        line += " " + quoted(argument);
+        line += " " + shell_word(argument);
     }
     words.push_back(line);
     return words;
 }
 
-std::string quoted(const std::string& word) {
+std::string shell_word(const std::string& word) {
     std::string made = "'";
     for (const char c : word) {
         made += c == '\'' ? std::string("'\\''") : std::string(1, c);

@@ -29,6 +29,6 @@ struct TargetOptions;
 std::vector<std::string> serving_command(const RemoteCube& cube, const TargetOptions& options);
 
 // A word as a shell reads it back.
-std::string quoted(const std::string& word);
+std::string shell_word(const std::string& word);
 
 }  // namespace shearwater::deploy

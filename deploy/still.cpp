@@ -129,9 +129,6 @@ void Still::ask(wire::Time now, std::vector<wire::NetEffect>& effects) {
     view_.crop = *crop;
     asked_.push_back({++view_.revision, picture, now});
     effects.emplace_back(wire::Send{server_link, wire::message(wire::to_wire(view_))});
-    if (repeat_.edit) {
-        repeat_.edit(view_.tf);
-    }
 }
 
 // One at a time, for of two that wait to be sent the newer takes the other's place.

@@ -284,7 +284,8 @@ void Session::pick(Purpose purpose, const view::Vec2& at) {
         wire::PickRequest request{.camera = camera(wish_->viewpoint, cube_->lattice),
                                   .size = wish_->size,
                                   .at = at,
-                                  .tf = wish_->tf};
+                                  .tf = wish_->tf,
+                                  .crop = crop_of_cube()};
         effects_.push_back(wire::Send{link_, picker_.ask(purpose, std::move(request))});
     }
 }
@@ -293,6 +294,12 @@ void Session::set_effort(const Effort& effort, wire::Time now) {
     pace_.set(effort);
     refine(now);
     send_if_due(now);
+}
+
+// One of another cube's counts for nothing.
+std::optional<volume::Box> Session::crop_of_cube() const {
+    const bool is_of_cube = wish_->crop && view::validate_crop(*wish_->crop, cube_->lattice.n);
+    return is_of_cube ? wish_->crop : std::nullopt;
 }
 
 // One view unanswered keeps the server busy and a second one waits at it; further ones only replace that.
@@ -316,7 +323,6 @@ void Session::send_view(wire::Time now) {
     small_ = size != wish_->size;
     const view::Camera seen = camera(wish_->viewpoint, cube_->lattice);
     const bool fits = wish_->stereo && view::validate(*wish_->stereo, seen, size);
-    const bool is_of_cube = wish_->crop && view::validate_crop(*wish_->crop, cube_->lattice.n);
     const wire::View view{.revision = ++revision_,
                           .camera = seen,
                           .size = size,
@@ -328,7 +334,7 @@ void Session::send_view(wire::Time now) {
                           .classify = wish_->classify,
                           .culling = wish_->culling,
                           .stereo = fits ? wish_->stereo : std::nullopt,
-                          .crop = is_of_cube ? wish_->crop : std::nullopt};
+                          .crop = crop_of_cube()};
     effects_.push_back(wire::Send{link_, wire::message(wire::to_wire(view))});
     sent_.push_back({revision_, *wish_, view.size, view.stereo ? 2 : 1, view.quality, view.deflate, now,
                      tree_.nodes.empty() || tree_.ready});

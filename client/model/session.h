@@ -114,6 +114,7 @@ class Session {
     void refine(wire::Time now);
     void send_if_due(wire::Time now);
     void send_view(wire::Time now);
+    std::optional<volume::Box> crop_of_cube() const;
     void forget_older_than(std::uint64_t revision);
     bool on_link(wire::LinkId link) const { return linked_ && link == link_; }
 

@@ -82,7 +82,7 @@ void stereo_section(Desk& desk) {
     mode_choice(desk);
     ImGui::BeginDisabled(!desk.shown || !desk.has_cube());
     if (desk.has_cube()) {
-        const view::Camera camera = model::camera(desk.wish.viewpoint, desk.lattice());
+        const view::Camera camera = view::camera(desk.wish.viewpoint, desk.lattice());
         view::StereoSettings all = view::resolved(desk.eyes, camera);
         const double distance = view::resolved({}, camera).convergence;
         if (length_slider(desk, "##separation", "eyes %.3g apart", 0.002 * distance, 0.2 * distance,

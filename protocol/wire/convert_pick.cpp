@@ -16,16 +16,22 @@ pb::Pick to_wire(const PickRequest& pick) {
     to.set_x(pick.at.x);
     to.set_y(pick.at.y);
     *to.mutable_transfer_function() = to_wire(pick.tf);
+    if (pick.crop) {
+        *to.mutable_crop() = to_wire(*pick.crop);
+    }
     return to;
 }
 
-// A view with the same camera, size and transfer function is checked the same way.
+// A view with the same camera, size, transfer function and crop is checked the same way.
 Parsed<PickRequest> pick_from(const pb::Pick& pick) {
     pb::SetView same;
     *same.mutable_camera() = pick.camera();
     same.set_width(pick.width());
     same.set_height(pick.height());
     *same.mutable_transfer_function() = pick.transfer_function();
+    if (pick.has_crop()) {
+        *same.mutable_crop() = pick.crop();
+    }
     auto view = view_from(same);
     if (!view) {
         return view.error();
@@ -33,7 +39,8 @@ Parsed<PickRequest> pick_from(const pb::Pick& pick) {
     if (!(pick.x() >= 0 && pick.x() <= view->size.width && pick.y() >= 0 && pick.y() <= view->size.height)) {
         return invalid("pick: a point of the picture is wanted");
     }
-    return PickRequest{pick.revision(), view->camera, view->size, {pick.x(), pick.y()}, std::move(view->tf)};
+    return PickRequest{pick.revision(),      view->camera,        view->size,
+                       {pick.x(), pick.y()}, std::move(view->tf), view->crop};
 }
 
 pb::Picked to_wire(const PickAnswer& answer) {

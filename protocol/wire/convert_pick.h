@@ -16,6 +16,7 @@ struct PickRequest {
     view::ImageSize size;
     view::Vec2 at;
     view::TransferFunction tf;
+    std::optional<volume::Box> crop;
 };
 pb::Pick to_wire(const PickRequest& pick);
 Parsed<PickRequest> pick_from(const pb::Pick& pick);

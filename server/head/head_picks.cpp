@@ -9,7 +9,12 @@ namespace shearwater::head {
 namespace pb = wire::pb;
 
 void Head::on_pick(wire::LinkId client, const pb::Pick& pick, wire::Time now, Effects& effects) {
-    const auto wanted = wire::pick_from(pick);
+    auto wanted = wire::pick_from(pick);
+    if (wanted && wanted->crop) {
+        if (const auto fits = view::validate_crop(*wanted->crop, roster_.cube().lattice.n); !fits) {
+            wanted = wire::Fault{pb::REASON_INVALID, fits.error().detail};
+        }
+    }
     if (!wanted) {
         on_link_down(client, effects);
         fault(client, wanted.error(), effects);

@@ -11,6 +11,7 @@ Picks::Begun Picks::begin(wire::LinkId client, const wire::PickRequest& pick, co
     Begun begun{.probe = {},
                 .ray = view::factorise_ray(pick.camera, pick.size, pick.at, lattice),
                 .replaced = forget(client)};
+    begun.ray.crop = pick.crop;
     begun.probe.set_number(++last_number_);
     *begun.probe.mutable_factorisation() = wire::to_wire(begun.ray);
     *begun.probe.mutable_transfer_function() = wire::to_wire(pick.tf);

@@ -42,6 +42,9 @@ std::vector<wire::PickRequest> questions() {
                        .size = size,
                        .at = {20.0 + 2.1 * i, 30.0 - i},
                        .tf = view::default_transfer_function()});
+        if (i % 3 == 1) {
+            all.back().crop = volume::Box{{4, 2, 6}, {15, 16, 19}};
+        }
     }
     return all;
 }
@@ -77,12 +80,18 @@ TEST(Pick, IsAnsweredAlikeByEveryTree) {
             const wire::PickAnswer answer = ask(simulation, question);
             EXPECT_EQ(answer.revision, question.revision);
             EXPECT_FALSE(answer.incomplete);
-            const auto ray = view::factorise_ray(question.camera, size, question.at, lattice);
+            auto ray = view::factorise_ray(question.camera, size, question.at, lattice);
+            ray.crop = question.crop;
             const shear::OpacityTable table(question.tf, whole->mapping().levels());
             const auto expected = view::half_way(ray, shear::sample_ray(*whole, table, ray));
             ASSERT_EQ(answer.hit.has_value(), expected.has_value()) << question.revision;
             if (expected) {
                 ++hits;
+                for (int axis = 0; question.crop && axis < 3; ++axis) {
+                    const auto a = static_cast<std::size_t>(axis);
+                    EXPECT_GE(answer.hit->voxel[axis], static_cast<double>(question.crop->lo[a]) - 1e-6);
+                    EXPECT_LE(answer.hit->voxel[axis], static_cast<double>(question.crop->hi[a]) + 1e-6);
+                }
                 EXPECT_LT(glm::length(answer.hit->voxel - expected->voxel), 1e-9);
                 EXPECT_NEAR(answer.hit->opacity, expected->opacity, 1e-9);
                 const view::Vec3& at = expected->voxel;

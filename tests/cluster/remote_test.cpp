@@ -47,8 +47,8 @@ TEST(Remote, NamesOfCubesElsewhereAreTold) {
 }
 
 TEST(Remote, WordsReachTheOtherShellAsTheyAre) {
-    EXPECT_EQ(deploy::quoted("a b"), "'a b'");
-    EXPECT_EQ(deploy::quoted("it's; rm -rf $HOME"), "'it'\\''s; rm -rf $HOME'");
+    EXPECT_EQ(deploy::shell_word("a b"), "'a b'");
+    EXPECT_EQ(deploy::shell_word("it's; rm -rf $HOME"), "'it'\\''s; rm -rf $HOME'");
     deploy::TargetOptions options;
     options.cube.path = "unused";
     options.remote.ssh = "ssh -p 22";
@@ -115,7 +115,7 @@ TEST_F(RemoteCube, WhatTheProgramSaysIsTold) {
         snapshot(script("echo 'Welcome to this machine, which prints what it should not'; cat >/dev/null"),
                  "somewhere:" + cube_, png),
         "shearwater snapshot");
-    support::expect_mistake("serve --stdio " + deploy::quoted(cube_), "secret");
+    support::expect_mistake("serve --stdio " + deploy::shell_word(cube_), "secret");
 }
 
 TEST_F(RemoteCube, IsDrawnThroughSsh) {

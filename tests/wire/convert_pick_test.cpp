@@ -15,8 +15,11 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 const volume::Index3 n{10, 9, 8};
 
 TEST(Pick, ComesBack) {
-    const PickRequest asked = pick_request();
+    PickRequest asked = pick_request();
+    EXPECT_FALSE(pick_from(to_wire(asked))->crop);
+    asked.crop = volume::Box{{1, 2, 3}, {4, 5, 6}};
     const PickRequest back = pick_from(to_wire(asked)).value();
+    EXPECT_EQ(back.crop, asked.crop);
     EXPECT_EQ(back.revision, asked.revision);
     EXPECT_EQ(back.camera, asked.camera);
     EXPECT_EQ(back.size, asked.size);
