@@ -1,5 +1,7 @@
 #include "client/view/dock.h"
 
+#include <iterator>
+
 #include "client/view/function_tab.h"
 #include "client/view/machine_tab.h"
 #include "client/view/movie_tab.h"
@@ -10,13 +12,14 @@ namespace {
 
 struct Tab {
     const char* title;
-    void (*tools)(Desk&);  // on the line of the tabs, to their right
+    float tools_width;     // nominal pixels, at the least
+    void (*tools)(Desk&);  // on the line of the tabs, to their right, where there is room; else below
     void (*body)(Desk&);
 };
 constexpr Tab tabs[] = {
-    {"Transfer function", function_tools, function_body},
-    {"Movie", movie_tools, movie_body},
-    {"Machine", machine_tools, machine_body},
+    {"Transfer function", 480, function_tools, function_body},
+    {"Movie", 540, movie_tools, movie_body},
+    {"Machine", 300, machine_tools, machine_body},
 };
 
 void tab_heads(Desk& desk) {
@@ -38,8 +41,9 @@ void tab_heads(Desk& desk) {
                                {from.x + width - desk.px(8), from.y + height + desk.px(3)}, theme::accent,
                                desk.px(1));
         }
-        ImGui::SameLine(0, desk.px(4));
-        ++i;
+        if (++i < static_cast<int>(std::size(tabs))) {
+            ImGui::SameLine(0, desk.px(4));
+        }
     }
 }
 
@@ -58,6 +62,10 @@ void dock(Desk& desk, ImVec2 from, ImVec2 size) {
     ImGui::GetWindowDrawList()->AddLine(from, {from.x + size.x, from.y}, theme::line);
     tab_heads(desk);
     const Tab& tab = tabs[desk.dock_tab];
+    ImGui::SameLine(0, desk.px(14));
+    if (ImGui::GetContentRegionAvail().x < desk.px(tab.tools_width)) {
+        ImGui::NewLine();
+    }
     tab.tools(desk);
     ImGui::Dummy({0, 0});
     tab.body(desk);

@@ -96,7 +96,6 @@ void axis_choice(Desk& desk) {
 }  // namespace
 
 void function_tools(Desk& desk) {
-    ImGui::SameLine(0, desk.px(14));
     for (const model::Shape shape : model::shapes) {
         if (shape_button(desk, shape)) {
             add_pin(desk, shape, 0.5, 0.1);

@@ -67,7 +67,6 @@ void machine_tools(Desk& desk) {
     const model::Status& status = desk.status;
     const auto& frame = status.frame;
     const float gap = desk.px(18);
-    ImGui::SameLine(0, gap);
     ImGui::AlignTextToFramePadding();
     if (!frame) {
         figure("no picture yet", gap);

@@ -54,14 +54,7 @@ std::vector<Spot> lay_out(const std::vector<model::Node>& nodes) {
 }
 
 std::string short_name(const model::Node& node) {
-    switch (node.role) {
-        case pb::ROLE_RENDERER:
-            return fmt::format("renderer {}", node.place);
-        case pb::ROLE_COMPOSITOR:
-            return fmt::format("compositor {}", node.place);
-        default:
-            return "server";
-    }
+    return node.depth == 0 ? "server" : fmt::format("{} {}", wire::text_of(node.role), node.place);
 }
 
 void draw_node(Desk& desk, const model::Node& node, ImVec2 middle, ImVec2 size) {

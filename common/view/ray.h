@@ -14,7 +14,8 @@
 namespace shearwater::view {
 
 // The factorisation of the ray through (x, y) of a picture, whose pixel centres lie at halves: one face of
-// one pixel, with two slices a voxel, whatever the quality of pictures. The camera is valid for the size.
+// one pixel, with two slices a voxel, whatever the quality of pictures. The camera is valid for the size; where
+// it is so far out that the ray has no bounds, validate() does not pass what comes of it.
 Factorisation factorise_ray(const Camera& camera, const ImageSize& size, const Vec2& at,
                             const Lattice& lattice);
 // Whether a factorisation is one of a single ray.

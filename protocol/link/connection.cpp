@@ -165,9 +165,8 @@ void Connection::check_open_link(Clock::Time now) {
 
 Fault Connection::lost() const {
     if (child_) {
-        if (std::string words = child_->last_words(); !words.empty()) {
-            return {pb::REASON_LOST, std::move(words)};
-        }
+        const std::string words = child_->last_words();
+        return {pb::REASON_LOST, words.empty() ? route_.command[0] + " has closed the connection" : words};
     }
     return {pb::REASON_LOST, broken_text_.empty() ? "the other side closed the connection" : broken_text_};
 }

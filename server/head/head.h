@@ -184,6 +184,7 @@ class Head {
     bool can_cull(wire::LinkId client, const wire::View& view, int level);
     void on_looked(Looked looked, wire::Time now, Effects& effects);
     void settle_functions(wire::Time now, Effects& effects);
+    wire::Parsed<view::Factorisation> ray_of(const wire::PickRequest& pick) const;
     void on_pick(wire::LinkId client, const wire::pb::Pick& pick, wire::Time now, Effects& effects);
     void forget_picks(wire::LinkId client);
     void settle_picks(Effects& effects);
@@ -197,7 +198,7 @@ class Head {
     Functions functions_;
     Picks picks_;
     std::optional<volume::Mapping> mapping_;
-    std::optional<volume::Mapping> sketch_;  // set once all have one: by its own limits
+    std::optional<volume::Mapping> sketch_;         // set once all have one: by its own limits
     std::optional<wire::pb::ValueSummary> values_;  // of the sketch's voxels, until all are counted
     bool serving_ = false;
     std::map<wire::LinkId, wire::LinkUp> joining_;  // daemons' control links that have not yet joined

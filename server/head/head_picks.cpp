@@ -8,19 +8,27 @@ namespace shearwater::head {
 
 namespace pb = wire::pb;
 
-void Head::on_pick(wire::LinkId client, const pb::Pick& pick, wire::Time now, Effects& effects) {
-    auto wanted = wire::pick_from(pick);
-    if (wanted && wanted->crop) {
-        if (const auto fits = view::validate_crop(*wanted->crop, roster_.cube().lattice.n); !fits) {
-            wanted = wire::Fault{pb::REASON_INVALID, fits.error().detail};
-        }
+// A peer's pick that leaves would take for a fault of ours is the client's: of another cube's crop, or so far
+// out that its ray has no bounds.
+wire::Parsed<view::Factorisation> Head::ray_of(const wire::PickRequest& pick) const {
+    const view::Lattice& lattice = roster_.cube().lattice;
+    view::Factorisation ray = view::factorise_ray(pick.camera, pick.size, pick.at, lattice);
+    ray.crop = pick.crop;
+    if (const auto valid = view::validate(ray); !valid) {
+        return wire::Fault{pb::REASON_INVALID, "pick: " + valid.error().detail};
     }
-    if (!wanted) {
+    return ray;
+}
+
+void Head::on_pick(wire::LinkId client, const pb::Pick& pick, wire::Time now, Effects& effects) {
+    const auto wanted = wire::pick_from(pick);
+    const auto ray = wanted ? ray_of(*wanted) : wanted.error();
+    if (!ray) {
         on_link_down(client, effects);
-        fault(client, wanted.error(), effects);
+        fault(client, ray.error(), effects);
         return;
     }
-    const Picks::Begun begun = picks_.begin(client, *wanted, roster_.cube().lattice);
+    const Picks::Begun begun = picks_.begin(client, *wanted, *ray);
     if (begun.replaced) {
         branch_.forget_probe(*begun.replaced);
     }

@@ -7,11 +7,9 @@
 
 namespace shearwater::head {
 
-Picks::Begun Picks::begin(wire::LinkId client, const wire::PickRequest& pick, const view::Lattice& lattice) {
-    Begun begun{.probe = {},
-                .ray = view::factorise_ray(pick.camera, pick.size, pick.at, lattice),
-                .replaced = forget(client)};
-    begun.ray.crop = pick.crop;
+Picks::Begun Picks::begin(wire::LinkId client, const wire::PickRequest& pick,
+                          const view::Factorisation& ray) {
+    Begun begun{.probe = {}, .ray = ray, .replaced = forget(client)};
     begun.probe.set_number(++last_number_);
     *begun.probe.mutable_factorisation() = wire::to_wire(begun.ray);
     *begun.probe.mutable_transfer_function() = wire::to_wire(pick.tf);

@@ -19,7 +19,7 @@ class Picks {
         view::Factorisation ray;
         std::optional<std::uint64_t> replaced;
     };
-    Begun begin(wire::LinkId client, const wire::PickRequest& pick, const view::Lattice& lattice);
+    Begun begin(wire::LinkId client, const wire::PickRequest& pick, const view::Factorisation& ray);
     // The number of a client's, if it has one under way.
     std::optional<std::uint64_t> forget(wire::LinkId client);
 

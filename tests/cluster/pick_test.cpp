@@ -144,17 +144,21 @@ TEST(Pick, TheNewestWins) {
 }
 
 // A pick that is none ends its client's link, and nothing else.
-TEST(Pick, OutOfThePictureEndsTheLink) {
+TEST(Pick, OneThatIsNoneEndsTheLink) {
     Blobs source;
-    support::Simulation simulation(8, *tree::full_tree(2, 2), cube, source);
-    start_all(simulation);
-    ASSERT_EQ(simulation.head().clients(), 1U);
-    wire::PickRequest question = questions()[1];
-    question.at.x = -1;
-    simulation.pick(question);
-    ASSERT_TRUE(simulation.run_until([&] { return simulation.head().clients() == 0; }));
-    EXPECT_TRUE(simulation.picked().empty());
-    EXPECT_TRUE(simulation.head().serving());
+    wire::PickRequest outside = questions()[1], elsewhere = outside, beyond = questions()[3];
+    outside.at.x = -1;
+    elsewhere.crop = volume::Box{{0, 0, 0}, {400, 400, 400}};
+    beyond.camera.height = 1e156;
+    for (const wire::PickRequest& question : {outside, elsewhere, beyond}) {
+        support::Simulation simulation(8, *tree::full_tree(2, 2), cube, source);
+        start_all(simulation);
+        ASSERT_EQ(simulation.head().clients(), 1U);
+        simulation.pick(question);
+        ASSERT_TRUE(simulation.run_until([&] { return simulation.head().clients() == 0; }));
+        EXPECT_TRUE(simulation.picked().empty());
+        EXPECT_TRUE(simulation.head().serving());
+    }
 }
 
 }  // namespace

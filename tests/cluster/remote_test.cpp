@@ -161,7 +161,7 @@ TEST_F(RemoteCube, IsDrawnThroughSsh) {
     // The far end goes with us.
     int left = 1;
     for (int i = 0; i < 100 && left != 0; ++i) {
-        left = shell("pgrep -f \"shearwater-server " + cube_ + "\" >/dev/null") == 0 ? 1 : 0;
+        left = shell("pgrep -f \"[s]hearwater-server " + cube_ + "\" >/dev/null") == 0 ? 1 : 0;
         std::this_thread::sleep_for(50ms);
     }
     EXPECT_EQ(left, 0) << "no server is left behind";
