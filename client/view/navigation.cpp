@@ -196,7 +196,8 @@ void navigate_on(Desk& desk, const Window& window) {
         desk.dragging = true;
     }
     desk.flying = desk.flying && desk.has_cube() && !desk.escape;
-    if (!desk.flying || ImGui::GetIO().WantTextInput) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (!desk.flying || io.WantTextInput) {
         return;
     }
     const auto between = [&](int back, int ahead) {
@@ -204,10 +205,12 @@ void navigate_on(Desk& desk, const Window& window) {
     };
     const model::Thrust thrust{between(GLFW_KEY_A, GLFW_KEY_D), between(GLFW_KEY_X, GLFW_KEY_SPACE),
                                between(GLFW_KEY_S, GLFW_KEY_W)};
-    if (thrust != model::Thrust(0)) {
+    // What was pressed with the control key means something else, until it is let go.
+    desk.thrust_held_back = io.KeyCtrl || (desk.thrust_held_back && thrust != model::Thrust(0));
+    if (thrust != model::Thrust(0) && !desk.thrust_held_back) {
         // A pass may have waited long for the first key.
         constexpr double longest = 0.1;
-        const double seconds = std::min(static_cast<double>(ImGui::GetIO().DeltaTime), longest);
+        const double seconds = std::min(static_cast<double>(io.DeltaTime), longest);
         model::fly(desk.steer(), thrust, desk.pace, seconds, desk.lattice());
     }
 }

@@ -206,8 +206,16 @@ void Display::release(int button) {
 }
 
 void Display::click(int x, int y, int times, int button) {
-    xdotool({"mousemove", std::to_string(x), std::to_string(y), "sleep", "0.1", "click", "--repeat",
-             std::to_string(times), "--delay", "120", std::to_string(button)});
+    const std::string which = std::to_string(button);
+    std::vector<std::string> words{"mousemove", std::to_string(x), std::to_string(y), "sleep", "0.2"};
+    const auto add = [&](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
+    if (times == 1) {
+        add({"mousedown", which, "sleep", "0.2", "mouseup", which});  // as long as a pass of a busy machine
+    } else {
+        add({"click", "--repeat", std::to_string(times), "--delay", "120", which});
+    }
+    add({"sleep", "0.1"});
+    xdotool(words);
     park();
 }
 
