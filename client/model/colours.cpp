@@ -20,7 +20,9 @@ std::optional<std::size_t> add_colour(view::TransferFunction& tf, double at) {
     const view::ColourPin pin{share(at), tf.colour(share(at))};
     const auto behind = std::upper_bound(tf.colour_pins.begin(), tf.colour_pins.end(), pin.at,
                                          [](double x, const view::ColourPin& other) { return x < other.at; });
-    return static_cast<std::size_t>(tf.colour_pins.insert(behind, pin) - tf.colour_pins.begin());
+    const auto number = behind - tf.colour_pins.begin();  // before the pins are elsewhere
+    tf.colour_pins.insert(behind, pin);
+    return static_cast<std::size_t>(number);
 }
 
 void move_colour(view::TransferFunction& tf, std::size_t pin, double at) {

@@ -52,6 +52,8 @@ Window::Window(GLFWwindow* window, float scale) : window_(window), scale_(scale)
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
     ImGui::CreateContext();
+    // Seconds, as desktops have it: slow graphics take passes as long.
+    ImGui::GetIO().MouseDoubleClickTime = 0.5F;
     ImGui::GetIO().IniFilename = nullptr;
     fonts_ = theme::apply(scale_);
     glfwSetWindowUserPointer(window_, this);
