@@ -39,7 +39,7 @@ void file_tools(Desk& desk) {
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - buttons - width);
     ImGui::SetNextItemWidth(width);
     ImGui::InputTextWithHint("##flight", "a file for the flight path", desk.movie.file.data(),
-                             desk.movie.file.size());
+                             desk.movie.file.size(), ImGuiInputTextFlags_AutoSelectAll);
     desk.controls.note("movie/file");
     ImGui::SameLine();
     const std::string file = desk.movie.file.data();
@@ -103,7 +103,8 @@ void draw_curve(const Desk& desk, ImDrawList& list, const Strip& strip, float to
     const float bottom = strip.to.y - desk.px(8);
     std::vector<ImVec2> line;
     for (int i = 0; i <= points; ++i) {
-        const double share = range > 0 ? (values[static_cast<std::size_t>(i)] - *least) / range : 0.5;
+        const double share =
+            range > 1e-9 * std::abs(*most) ? (values[static_cast<std::size_t>(i)] - *least) / range : 0.5;
         line.push_back(
             {strip.x(timeline.duration() * i / points), bottom - (bottom - top) * static_cast<float>(share)});
     }

@@ -32,7 +32,7 @@ TEST_F(WindowTest, AFlightIsMadePlayedAndKept) {
                 1);
 
     // The needle takes the view along, and it flies from the begin to the end.
-    drag("movie/needle", -300, 0);
+    drag("movie/needle", -130, 0);
     like(first, "the view at the begin");
     click("movie/Play");
     like(turned, "the view at the end");
