@@ -146,6 +146,7 @@ class WindowTest : public testing::Test {
         return {{"SHEARWATER_SECRET", secret_},
                 {"DISPLAY", display_->name()},
                 {"XDG_CONFIG_HOME", (folder_ / "config").string()},
+                {"XDG_STATE_HOME", (folder_ / "state").string()},
                 {"ASAN_OPTIONS", "detect_leaks=0"},
                 {"LIBGL_ALWAYS_SOFTWARE", "1"}};
     }
