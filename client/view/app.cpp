@@ -30,7 +30,7 @@ App::App(Window& window, Network& network, AppOptions options)
     desk_.wish.culling = options_.culling;
     desk_.effort = options_.effort;
     if (options_.scene) {
-        files_.begin(desk_, options_.session, *options_.scene);
+        Files::open(desk_, options_.session, *options_.scene);
     }
     desk_.status.words = "Starting ...";
 }
@@ -90,7 +90,7 @@ void App::collect() {
             known_lattice_ = desk_.lattice();
         }
     }
-    if (auto tf = anchoring_.settle(desk_.status, desk_.wish.tf, std::chrono::steady_clock::now())) {
+    if (auto tf = anchoring_.settle(desk_.status, desk_.wish.tf, desk_.now)) {
         desk_.wish.tf = *std::move(tf);
     }
     if (!anchoring_.fault().empty() && !fault_told_) {

@@ -22,10 +22,6 @@ std::string without(const std::string& path, std::string_view ending) {
 
 }  // namespace
 
-void Files::begin(Desk& desk, const std::string& path, const scene::Scene& scene) {
-    open(desk, path, scene);
-}
-
 // All of the scene but the size, which is the window's.
 void Files::apply(Desk& desk, const scene::Scene& scene) {
     desk.transition.stop();

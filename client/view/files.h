@@ -14,8 +14,8 @@ class Files {
   public:
     explicit Files(std::function<void()> wake) : keeper_(std::move(wake)) {}
 
-    // A session from a file, as it is when the window opens.
-    void begin(Desk& desk, const std::string& path, const scene::Scene& scene);
+    // Takes over a session that was read from a file.
+    static void open(Desk& desk, const std::string& path, const scene::Scene& scene);
     // Once a pass: what has come of earlier wishes, then new ones. `picture`: the last one; `settled`: it is
     // that of the desk's wish, as good as it gets. Files that were dropped on the window are opened.
     void attend(Desk& desk, const std::vector<std::string>& dropped,
@@ -24,7 +24,6 @@ class Files {
   private:
     void take(Desk& desk, const Keeper::Outcome& outcome);
     static void apply(Desk& desk, const scene::Scene& scene);
-    void open(Desk& desk, const std::string& path, const scene::Scene& scene);
 
     Keeper keeper_;
     model::Autosave autosave_;
