@@ -18,9 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string program = "shearwater movie";
+const std::string movie_program = "shearwater movie";
 
-struct Flags {
+struct MovieFlags {
     std::string path_file;
     TargetOptions target;
     ViewOptions view;
@@ -41,7 +41,7 @@ std::string stamp_of(const std::string& path) {
 }
 
 // Whatever the frames depend on, as a text.
-std::string description_of(const flight::Path& path, const Flags& flags) {
+std::string description_of(const flight::Path& path, const MovieFlags& flags) {
     std::string text = "#";
     for (const std::string& word : flags.view.picture_arguments()) {
         text += " " + word;
@@ -56,7 +56,7 @@ std::string description_of(const flight::Path& path, const Flags& flags) {
 }
 
 // The path's cubes, or the one of the command line for all its keys.
-base::Result<flight::Path> path_of(const Flags& flags) {
+base::Result<flight::Path> path_of(const MovieFlags& flags) {
     auto path = flight::read_path(flags.path_file);
     if (!path) {
         return path.error();
@@ -85,7 +85,7 @@ base::Result<flight::Path> path_of(const Flags& flags) {
 
 class Movie {
   public:
-    Movie(const Flags& flags, flight::Path path, FrameFolder folder)
+    Movie(const MovieFlags& flags, flight::Path path, FrameFolder folder)
         : flags_(flags), path_(std::move(path)), folder_(std::move(folder)), bar_("drawing") {}
 
     // Every frame that is not there yet, cube by cube: each is loaded once.
@@ -156,18 +156,18 @@ class Movie {
         if (!opened) {
             return opened.error();
         }
-        const auto drawn = draw_over_links(program, *opened, flags_.view, *size, script, progress);
+        const auto drawn = draw_over_links(movie_program, *opened, flags_.view, *size, script, progress);
         return drawn ? base::Status{} : drawn.error();
     }
 
-    const Flags& flags_;
+    const MovieFlags& flags_;
     flight::Path path_;
     FrameFolder folder_;
     ProgressBar bar_;
     int done_ = 0;
 };
 
-base::Status movie(const Flags& flags) {
+base::Status movie(const MovieFlags& flags) {
     const bool film = is_film(flags.output);
     if (!film && !flags.output.ends_with('/') && !fs::is_directory(flags.output)) {
         return base::error(base::Code::invalid_argument, "-o " + flags.output,
@@ -198,7 +198,7 @@ base::Status movie(const Flags& flags) {
 }  // namespace
 
 Run add_movie(CLI::App& app) {
-    auto flags = std::make_shared<Flags>();
+    auto flags = std::make_shared<MovieFlags>();
     app.add_option("path", flags->path_file, "flight path, a TOML file of key frames")->required();
     app.add_option("-o,--output", flags->output,
                    "film (.mp4, .mkv, .mov; by ffmpeg), or folder/ for PNG frames; what a stopped movie left "
@@ -211,7 +211,7 @@ Run add_movie(CLI::App& app) {
     flags->view.add_picture_to(app);
     return [flags] {
         const auto done = movie(*flags);
-        return done ? 0 : refuse(program, done.error());
+        return done ? 0 : refuse(movie_program, done.error());
     };
 }
 

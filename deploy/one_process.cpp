@@ -15,7 +15,7 @@
 namespace shearwater::deploy {
 namespace {
 
-class Clock {
+class Stopwatch {
   public:
     // Seconds since this was made, or last asked.
     double lap() {
@@ -81,7 +81,7 @@ void add(const shear::RenderStats& part, shear::RenderStats& sum) {
 base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const ViewOptions& view,
                                       const Script& script, int threads, const volume::Progress& progress) {
     base::Workers workers(threads);
-    Clock clock;
+    Stopwatch stopwatch;
     auto opened = cube::open(cube.path, cube.open_options());
     if (!opened) {
         return opened.error();
@@ -95,7 +95,7 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     if (!size || !crop) {
         return size ? crop.error() : size.error();
     }
-    double load = clock.lap();
+    double load = stopwatch.lap();
     const double share = script.pictures > 1 ? 0.5 : 1;  // of the progress, for loading
     const auto loading = [&](double fraction) { progress(share * fraction); };
     const auto values = values_of(*opened, cube, script.unit, workers, loading);
@@ -107,14 +107,14 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     if (!shot) {
         return shot.error();
     }
-    double preprocess = clock.lap();
+    double preprocess = stopwatch.lap();
     const auto second_half = [&](double fraction) { loading(0.5 + fraction / 2); };
     const auto volume = shear::BrickVolume::load(*opened->source, volume::whole(lattice.n), lattice.n,
                                                  values->mapping, workers, second_half);
     if (!volume) {
         return volume.error();
     }
-    load += clock.lap();
+    load += stopwatch.lap();
 
     Picture picture;
     std::vector<Seconds> times;
@@ -132,12 +132,12 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
             }
         }
         const view::TransferFunction& tf = shot->tf;
-        clock.lap();
+        stopwatch.lap();
         const std::vector<view::Camera> eyes = eyes_of(shot->camera, view.stereo);
         const auto factorisations = view::factorise(eyes, *size, lattice, view.sampling(), *crop);
         if (culler) {
             culler->prepare(tf, culling.kind, factorisations.front().level(), workers);
-            preprocess += clock.lap();
+            preprocess += stopwatch.lap();
         }
         const auto& classification =
             classifier.classify(*volume, tf, factorisations.front().classify, workers);
@@ -152,9 +152,9 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
             const auto windows = shear::render(*volume, classification, factorisation, workers, &of_eye, {},
                                                visible ? &*visible : nullptr);
             add(of_eye, stats);
-            spent.render += clock.lap();
+            spent.render += stopwatch.lap();
             pictures.push_back(image::warp(factorisation, windows, eyes[eye], *size, tf.background, workers));
-            spent.warp += clock.lap();
+            spent.warp += stopwatch.lap();
         }
         const auto mode = view.stereo.mode();
         picture.image =

@@ -11,7 +11,7 @@
 namespace shearwater::deploy {
 namespace {
 
-struct Flags {
+struct SampleFlags {
     std::string name;
     std::string output;
     std::vector<std::int64_t> size{128, 128, 128};
@@ -19,7 +19,7 @@ struct Flags {
     int bitpix = -32;
 };
 
-base::Status sample(const Flags& flags) {
+base::Status sample(const SampleFlags& flags) {
     const volume::Index3 n{flags.size[0], flags.size[1], flags.size[2]};
     const daemon::Interrupt interrupt;
     ProgressBar bar("making " + flags.name);
@@ -31,7 +31,7 @@ base::Status sample(const Flags& flags) {
 }  // namespace
 
 Run add_sample(CLI::App& app) {
-    auto flags = std::make_shared<Flags>();
+    auto flags = std::make_shared<SampleFlags>();
     std::string kinds;
     for (const samples::SampleKind& kind : samples::kinds()) {
         kinds += "\n  " + std::string(kind.name) + ": " + std::string(kind.description);

@@ -19,9 +19,9 @@
 namespace shearwater::deploy {
 namespace {
 
-const std::string program = "shearwater serve";
+const std::string serve_program = "shearwater serve";
 
-struct Flags {
+struct ServeFlags {
     options::CubeOptions cube;
     options::TreeOptions tree;
     options::ServeOptions serve;
@@ -80,7 +80,7 @@ void print_how_to_join(const std::string& cube, const tree::Topology& topology, 
     std::fflush(stdout);
 }
 
-base::Status serve(const Flags& flags) {
+base::Status serve(const ServeFlags& flags) {
     if (const auto valid = flags.cube.validate(); !valid) {
         return valid;
     }
@@ -134,7 +134,7 @@ base::Status serve(const Flags& flags) {
 
     bool server_gone = false;
     std::optional<daemon::Runtime> runtime;
-    runtime.emplace(program, chosen->secret, [&](const wire::NetEvent&) {
+    runtime.emplace(serve_program, chosen->secret, [&](const wire::NetEvent&) {
         if (!tree->keep_alive()) {
             server_gone = true;
             runtime->stop(1);
@@ -155,7 +155,7 @@ base::Status serve(const Flags& flags) {
 }  // namespace
 
 Run add_serve(CLI::App& app) {
-    auto flags = std::make_shared<Flags>();
+    auto flags = std::make_shared<ServeFlags>();
     app.add_option("cube", flags->cube.path, "the FITS file, or synthetic:KIND:SIZE")->required();
     flags->tree.add_to(app);
     flags->cube.add_to(app);
@@ -165,7 +165,7 @@ Run add_serve(CLI::App& app) {
     flags->common.add_to(app);
     return [flags] {
         const auto done = serve(*flags);
-        return done ? 0 : refuse(program, done.error());
+        return done ? 0 : refuse(serve_program, done.error());
     };
 }
 

@@ -14,9 +14,9 @@
 namespace shearwater::deploy {
 namespace {
 
-const std::string program = "shearwater snapshot";
+const std::string snapshot_program = "shearwater snapshot";
 
-struct Flags {
+struct SnapshotFlags {
     TargetOptions target;
     ViewOptions view;
     std::string output;
@@ -37,18 +37,19 @@ base::Status write_json(const std::string& path, const Picture& picture) {
     return {};
 }
 
-base::Result<Picture> draw_by_tree(const Flags& flags, const view::AnchoredFunction& function,
+base::Result<Picture> draw_by_tree(const SnapshotFlags& flags, const view::AnchoredFunction& function,
                                    const view::ImageSize& size) {
     auto target = open_target(flags.target, "warn");
     if (!target) {
         return target.error();
     }
     ProgressBar bar(flags.repeat > 1 ? "loading and drawing" : "loading");
-    return draw_over_links(program, *target, flags.view, size, script_of(flags.view, function, flags.repeat),
+    return draw_over_links(snapshot_program, *target, flags.view, size,
+                           script_of(flags.view, function, flags.repeat),
                            [&](double fraction) { bar.show(fraction); });
 }
 
-base::Status snapshot(Flags& flags) {
+base::Status snapshot(SnapshotFlags& flags) {
     if (const auto valid = flags.target.validate(); !valid) {
         return valid;
     }
@@ -84,7 +85,7 @@ base::Status snapshot(Flags& flags) {
 }  // namespace
 
 Run add_snapshot(CLI::App& app) {
-    auto flags = std::make_shared<Flags>();
+    auto flags = std::make_shared<SnapshotFlags>();
     app.add_option("-o,--output", flags->output, "PNG file; - for standard output")->required();
     app.add_option("--repeat", flags->repeat, "draw so often and report medians")
         ->check(CLI::Range(1, 100000))
@@ -94,7 +95,7 @@ Run add_snapshot(CLI::App& app) {
     flags->view.add_to(app);
     return [flags] {
         const auto done = snapshot(*flags);
-        return done ? 0 : refuse(program, done.error());
+        return done ? 0 : refuse(snapshot_program, done.error());
     };
 }
 

@@ -10,9 +10,9 @@
 namespace shearwater::deploy {
 namespace {
 
-const std::string program = "shearwater view";
+const std::string view_program = "shearwater view";
 
-struct Flags {
+struct ViewFlags {
     TargetOptions target;
     options::DrawingOptions drawing;
     double target_rate = 20;
@@ -20,7 +20,7 @@ struct Flags {
 };
 
 // Starts the window and waits until it closes; a local tree is kept alive meanwhile.
-base::Result<int> view(const Flags& flags) {
+base::Result<int> view(const ViewFlags& flags) {
     if (const auto valid = flags.target.validate(); !valid) {
         return valid.error();
     }
@@ -55,7 +55,7 @@ base::Result<int> view(const Flags& flags) {
     bool server_gone = false;
     std::optional<int> status;
     std::optional<daemon::Runtime> runtime;
-    runtime.emplace(program, target->secret, [&](const wire::NetEvent&) {
+    runtime.emplace(view_program, target->secret, [&](const wire::NetEvent&) {
         status = status ? status : window->ended();
         if (target->tree && !target->tree->keep_alive()) {
             server_gone = true;
@@ -74,7 +74,7 @@ base::Result<int> view(const Flags& flags) {
 }  // namespace
 
 Run add_view(CLI::App& app) {
-    auto flags = std::make_shared<Flags>();
+    auto flags = std::make_shared<ViewFlags>();
     flags->drawing.add_to(app);
     app.add_option("--target-rate", flags->target_rate,
                    "frames a second to hold while the view moves, by lesser quality where need be")
@@ -86,7 +86,7 @@ Run add_view(CLI::App& app) {
     flags->target.add_to(app);
     return [flags] {
         const auto status = view(*flags);
-        return status ? *status : refuse(program, status.error());
+        return status ? *status : refuse(view_program, status.error());
     };
 }
 

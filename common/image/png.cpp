@@ -11,6 +11,7 @@
 #include <memory>
 #include <system_error>
 
+#include "common/image/file.h"
 #include "common/image/png_note.h"
 
 namespace shearwater::image {
@@ -20,11 +21,6 @@ namespace {
 // A picture larger than this is none of ours.
 constexpr png_uint_32 max_side = 32768;
 constexpr std::uint64_t max_pixels = std::uint64_t{1} << 27;
-
-struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
 
 base::Error failed(const std::string& operation) {
     return base::error(base::Code::io, operation, std::generic_category().message(errno));

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "common/base/check.h"
+#include "common/image/file.h"
 #include "common/image/png.h"
 
 namespace shearwater::image {
@@ -37,11 +38,6 @@ std::uint32_t checksum(std::string_view text) {
     return static_cast<std::uint32_t>(
         crc32(0, reinterpret_cast<const Bytef*>(text.data()), static_cast<uInt>(text.size())));
 }
-
-struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
 
 bool read_exactly(std::FILE* file, void* to, std::size_t bytes) {
     return std::fread(to, 1, bytes, file) == bytes;

@@ -13,11 +13,7 @@ constexpr double radians(double degrees) {
     return degrees * std::numbers::pi / 180;
 }
 
-bool finite(const Vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-base::Status refuse(std::string detail) {
+base::Status refuse_camera(std::string detail) {
     return base::error(base::Code::invalid_argument, "set the view", std::move(detail));
 }
 
@@ -104,30 +100,30 @@ base::Status validate(const Camera& camera, const ImageSize& size) {
     constexpr std::int64_t max_pixels = std::int64_t{1} << 25;
     if (size.width < 1 || size.height < 1 || size.width > max_side || size.height > max_side ||
         std::int64_t{size.width} * size.height > max_pixels) {
-        return refuse("a picture is 1 to 8192 pixels a side and at most 2^25 in all");
+        return refuse_camera("a picture is 1 to 8192 pixels a side and at most 2^25 in all");
     }
     if (camera.projection == Projection::perspective) {
         if (!(camera.fov > 0 && camera.fov < 180)) {
-            return refuse("the field of view has to be above 0 and below 180 degrees");
+            return refuse_camera("the field of view has to be above 0 and below 180 degrees");
         }
     } else if (!(camera.height > 0) || !std::isfinite(camera.height)) {
-        return refuse("the height of a parallel view has to be above 0");
+        return refuse_camera("the height of a parallel view has to be above 0");
     }
     if (!finite(camera.eye) || !finite(camera.target) || !finite(camera.up)) {
-        return refuse("the eye, the target and the up direction have to be finite");
+        return refuse_camera("the eye, the target and the up direction have to be finite");
     }
     if (!(glm::length(camera.slant) <= Camera::max_slant)) {
-        return refuse("the picture's middle is too far off the camera's axis");
+        return refuse_camera("the picture's middle is too far off the camera's axis");
     }
     const Vec3 sight = camera.target - camera.eye;
     const double distance = glm::length(sight);
     const double up = glm::length(camera.up);
     if (!(distance > 1e-100) || !std::isfinite(distance)) {
-        return refuse("the eye is on its target, or too far from it");
+        return refuse_camera("the eye is on its target, or too far from it");
     }
     if (!(up > 1e-100) || !std::isfinite(up) ||
         !(glm::length(glm::cross(sight / distance, camera.up / up)) > 1e-9)) {
-        return refuse("the up direction is along the line of sight");
+        return refuse_camera("the up direction is along the line of sight");
     }
     return {};
 }

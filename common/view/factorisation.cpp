@@ -10,10 +10,6 @@ namespace shearwater::view {
 
 namespace {
 
-bool finite(const Vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 // The least i in [0, count] whose coordinate satisfies `reached`, which holds from some i on.
 template <class Reached>
 int first_reaching(double offset, double scale, double bound, int count, const Reached& reached) {
@@ -30,7 +26,7 @@ int first_reaching(double offset, double scale, double bound, int count, const R
     return i;
 }
 
-base::Status refuse(std::string detail) {
+base::Status refuse_factorisation(std::string detail) {
     return base::error(base::Code::invalid_argument, "read a factorisation", std::move(detail));
 }
 
@@ -185,10 +181,10 @@ base::Status validate(const Factorisation& factorisation) {
         finite(lattice.spacing) && lattice.spacing.x > 0 && lattice.spacing.y > 0 && lattice.spacing.z > 0;
     if (!spaced || *std::min_element(lattice.n.begin(), lattice.n.end()) < 2 ||
         volume::voxel_count(lattice.n) < 0) {
-        return refuse("its lattice is not one");
+        return refuse_factorisation("its lattice is not one");
     }
     if (!finite(factorisation.eye) || !finite(factorisation.direction)) {
-        return refuse("its eye or direction is not finite");
+        return refuse_factorisation("its eye or direction is not finite");
     }
     if (factorisation.crop) {
         if (auto status = validate_crop(*factorisation.crop, lattice.n); !status) {
@@ -197,27 +193,29 @@ base::Status validate(const Factorisation& factorisation) {
     }
     if (factorisation.slice_exponent < -1 ||
         factorisation.slice_exponent > volume::coarsest_level(lattice.n)) {
-        return refuse("its slices are closer than half a voxel, or of a level that the cube does not have");
+        return refuse_factorisation(
+            "its slices are closer than half a voxel, or of a level that the cube does not have");
     }
     if (factorisation.classify == Classify::pre_integrated &&
         factorisation.level() > volume::max_margin_level) {
-        return refuse("so coarse a level is not for pre-integrated classification");
+        return refuse_factorisation("so coarse a level is not for pre-integrated classification");
     }
     if (factorisation.faces.size() > Factorisation::max_faces) {
-        return refuse("it has more than six faces");
+        return refuse_factorisation("it has more than six faces");
     }
     std::int64_t area = 0;
     for (const Face& face : factorisation.faces) {
         if (!valid(face)) {
-            return refuse("a face is out of range");
+            return refuse_factorisation("a face is out of range");
         }
         area += std::int64_t{face.width} * face.height;
         if (factorisation.projection == Projection::parallel &&
             !(face.sign * factorisation.direction[face.axis] > 0)) {
-            return refuse("a face looks away from the direction of its rays");
+            return refuse_factorisation("a face looks away from the direction of its rays");
         }
     }
-    return area <= Factorisation::max_area ? base::Status{} : refuse("its faces have too many pixels");
+    return area <= Factorisation::max_area ? base::Status{}
+                                           : refuse_factorisation("its faces have too many pixels");
 }
 
 }  // namespace shearwater::view

@@ -3,6 +3,8 @@
 //   voxel space   fractional voxel indices (common/volume/box.h)
 //   world space   spacing * (voxel - (n - 1) / 2), the cube's middle at the origin
 
+#include <cmath>
+
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -13,6 +15,10 @@ namespace shearwater::view {
 
 using Vec2 = glm::dvec2;
 using Vec3 = glm::dvec3;
+
+inline bool finite(const Vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 // The grid a cube's samples lie on.
 struct Lattice {

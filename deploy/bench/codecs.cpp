@@ -18,7 +18,7 @@
 namespace shearwater::bench {
 namespace {
 
-struct Flags {
+struct CodecsFlags {
     Options common;
     std::int64_t edge = 128;
     double seconds = 0.3;
@@ -48,7 +48,7 @@ Frame draw(const InProcess& cube, const view::Camera& camera, const view::ImageS
 
 class Codecs {
   public:
-    Codecs(const Flags& flags, std::string workload, Report& report)
+    Codecs(const CodecsFlags& flags, std::string workload, Report& report)
         : flags_(flags), workload_(std::move(workload)), report_(report) {}
 
     void time_picture(const image::Image<image::Rgba8>& picture) {
@@ -109,12 +109,12 @@ class Codecs {
         report_.add(record);
     }
 
-    const Flags& flags_;
+    const CodecsFlags& flags_;
     std::string workload_;
     Report& report_;
 };
 
-base::Status codecs(const Flags& flags) {
+base::Status codecs(const CodecsFlags& flags) {
     const auto view = flags.common.view(flags.edge);
     if (!view) {
         return view.error();
@@ -150,7 +150,7 @@ base::Status codecs(const Flags& flags) {
 }  // namespace
 
 Run add_codecs(CLI::App& app) {
-    auto flags = std::make_shared<Flags>();
+    auto flags = std::make_shared<CodecsFlags>();
     add_size(app, flags->edge);
     app.add_option("--seconds", flags->seconds, "that each is done for")
         ->check(CLI::Range(0.0, 3600.0))

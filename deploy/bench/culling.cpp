@@ -75,7 +75,7 @@ const std::vector<std::string>& table_names() {
     return names;
 }
 
-struct Flags {
+struct CullingFlags {
     Options common;
     CaseOptions drawn{.workloads = {"W3"}};
     std::vector<std::string> tables{"views", "functions", "frames", "family", "pass"};
@@ -87,7 +87,7 @@ struct Flags {
 };
 
 // Whether no picture differed that was checked.
-base::Result<bool> measure(const Flags& flags, const Case& drawn, Report& report) {
+base::Result<bool> measure(const CullingFlags& flags, const Case& drawn, Report& report) {
     auto cube = load(drawn, flags.common.threads);
     if (!cube) {
         return cube.error();
@@ -124,7 +124,7 @@ base::Result<bool> measure(const Flags& flags, const Case& drawn, Report& report
     return true;
 }
 
-base::Result<bool> culling(const Flags& flags) {
+base::Result<bool> culling(const CullingFlags& flags) {
     if (auto valid = flags.drawn.cube.validate(); !valid) {
         return valid.error();
     }
@@ -177,7 +177,7 @@ base::Result<bool> culling(const Flags& flags) {
 }  // namespace
 
 Run add_culling(CLI::App& app) {
-    auto flags = std::make_shared<Flags>();
+    auto flags = std::make_shared<CullingFlags>();
     flags->common.drawing.lod = "off";
     flags->drawn.add_to(app);
     app.add_option(

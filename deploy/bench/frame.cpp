@@ -14,14 +14,14 @@
 namespace shearwater::bench {
 namespace {
 
-struct Flags {
+struct FrameFlags {
     Options common;
     CaseOptions drawn{.workloads = {"W1"}};
     bool parallel = false;
     bool axes = false;
 };
 
-Record row(const Flags& flags, const Case& drawn, const InProcess& cube, const std::string& view,
+Record row(const FrameFlags& flags, const Case& drawn, const InProcess& cube, const std::string& view,
            const std::vector<FrameTimes>& frames) {
     const FrameSummary all = summary(frames);
     Record record;
@@ -58,7 +58,7 @@ view::Camera along_axis(view::Camera camera, int steps) {
     return camera;
 }
 
-base::Status draw_axes(const Flags& flags, const Case& drawn, InProcess& cube,
+base::Status draw_axes(const FrameFlags& flags, const Case& drawn, InProcess& cube,
                        const deploy::ViewOptions& view, Report& report) {
     const auto camera = view.camera(cube.lattice());
     if (!camera) {
@@ -84,7 +84,7 @@ base::Status draw_axes(const Flags& flags, const Case& drawn, InProcess& cube,
     return {};
 }
 
-base::Status draw(const Flags& flags, const Case& drawn, Report& report) {
+base::Status draw(const FrameFlags& flags, const Case& drawn, Report& report) {
     auto cube = load(drawn, flags.common.threads);
     if (!cube) {
         return cube.error();
@@ -107,7 +107,7 @@ base::Status draw(const Flags& flags, const Case& drawn, Report& report) {
     return {};
 }
 
-base::Status frame(const Flags& flags) {
+base::Status frame(const FrameFlags& flags) {
     if (auto valid = flags.drawn.cube.validate(); !valid) {
         return valid;
     }
@@ -133,7 +133,7 @@ base::Status frame(const Flags& flags) {
 }  // namespace
 
 Run add_frame(CLI::App& app) {
-    auto flags = std::make_shared<Flags>();
+    auto flags = std::make_shared<FrameFlags>();
     flags->drawn.add_to(app);
     app.add_flag("--parallel", flags->parallel, "parallel projection");
     app.add_flag("--axes", flags->axes, "the first view alone, along each of the cube's axes");

@@ -14,14 +14,14 @@
 namespace shearwater::bench {
 namespace {
 
-struct Flags {
+struct ImagesFlags {
     Options common;
     std::vector<std::string> images{"100x100", "256x256", "512x512"};
     std::int64_t edge = 128;
     std::string workload = "W1";
 };
 
-base::Status images(const Flags& flags) {
+base::Status images(const ImagesFlags& flags) {
     const Workload work = workload(flags.workload);
     std::vector<deploy::ViewOptions> views;
     for (const std::string& image : flags.images) {
@@ -77,7 +77,7 @@ base::Status images(const Flags& flags) {
 }  // namespace
 
 Run add_images(CLI::App& app) {
-    auto flags = std::make_shared<Flags>();
+    auto flags = std::make_shared<ImagesFlags>();
     app.add_option("--images", flags->images, "sizes of the pictures, WIDTHxHEIGHT with commas between")
         ->delimiter(',')
         ->capture_default_str();

@@ -15,14 +15,14 @@
 namespace shearwater::bench {
 namespace {
 
-struct Flags {
+struct LargeFlags {
     Options common;
     std::vector<int> tree{32, 2};
     std::int64_t edge = 2048;
     std::string workload = "W1";
 };
 
-Record row(const Flags& flags, const OnTree& tree, const deploy::Picture& picture) {
+Record row(const LargeFlags& flags, const OnTree& tree, const deploy::Picture& picture) {
     std::vector<double> totals;
     std::vector<double> renders;
     for (const deploy::Seconds& seconds : picture.each) {
@@ -59,7 +59,7 @@ Record row(const Flags& flags, const OnTree& tree, const deploy::Picture& pictur
     return record;
 }
 
-base::Status large(const Flags& flags) {
+base::Status large(const LargeFlags& flags) {
     const auto view = flags.common.view(flags.edge);
     if (!view) {
         return view.error();
@@ -87,7 +87,7 @@ base::Status large(const Flags& flags) {
 }  // namespace
 
 Run add_large(CLI::App& app) {
-    auto flags = std::make_shared<Flags>();
+    auto flags = std::make_shared<LargeFlags>();
     flags->common.frames = 3;
     app.add_option("--synthetic", flags->edge, "the cube's voxels along each axis")
         ->check(CLI::Range(std::int64_t{2}, std::int64_t{1} << 20U))

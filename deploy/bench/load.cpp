@@ -26,7 +26,7 @@
 namespace shearwater::bench {
 namespace {
 
-struct Flags {
+struct LoadFlags {
     Options common;
     std::string path;
     std::string folder;
@@ -93,7 +93,7 @@ void quantise(const volume::Quantiser& quantiser, std::span<const float> values,
 
 class Loading {
   public:
-    Loading(const Flags& flags, cube::Cube cube, Report& report)
+    Loading(const LoadFlags& flags, cube::Cube cube, Report& report)
         : flags_(flags), cube_(std::move(cube)), report_(report), workers_(flags.common.threads) {}
 
     base::Status run() {
@@ -268,13 +268,13 @@ class Loading {
         report_.add(record);
     }
 
-    const Flags& flags_;
+    const LoadFlags& flags_;
     cube::Cube cube_;
     Report& report_;
     base::Workers workers_;
 };
 
-base::Status make_cube(const Flags& flags, const Scratch& scratch) {
+base::Status make_cube(const LoadFlags& flags, const Scratch& scratch) {
     if (!scratch.made()) {
         return base::error(base::Code::io, "make a cube in " + flags.folder, "no folder can be made there");
     }
@@ -285,7 +285,7 @@ base::Status make_cube(const Flags& flags, const Scratch& scratch) {
         [&](double share) { bar.show(share); }, interrupt.token());
 }
 
-base::Status load(const Flags& flags) {
+base::Status load(const LoadFlags& flags) {
     auto report = Report::open("load", flags.common.json);
     if (!report) {
         return report.error();
@@ -320,7 +320,7 @@ base::Status load(const Flags& flags) {
 }  // namespace
 
 Run add_load(CLI::App& app) {
-    auto flags = std::make_shared<Flags>();
+    auto flags = std::make_shared<LoadFlags>();
     flags->common.frames = 5;
     std::error_code none;
     flags->folder = std::filesystem::temp_directory_path(none).string();

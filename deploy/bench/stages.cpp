@@ -13,7 +13,7 @@
 namespace shearwater::bench {
 namespace {
 
-struct Flags {
+struct StagesFlags {
     Options common;
     std::vector<int> tree{2, 3};
     std::int64_t edge = 256;
@@ -44,7 +44,7 @@ std::vector<Stage> stages_of(const deploy::Picture& picture) {
             {"total", s.total, "0.44 s of 128^3 by four"}};
 }
 
-base::Status stages(const Flags& flags) {
+base::Status stages(const StagesFlags& flags) {
     const auto view = flags.common.view(flags.edge);
     if (!view) {
         return view.error();
@@ -86,7 +86,7 @@ base::Status stages(const Flags& flags) {
 }  // namespace
 
 Run add_stages(CLI::App& app) {
-    auto flags = std::make_shared<Flags>();
+    auto flags = std::make_shared<StagesFlags>();
     flags->common.image = "500x500";
     app.add_option("--tree", flags->tree, "branching and levels")
         ->delimiter(',')

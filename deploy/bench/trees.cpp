@@ -16,7 +16,7 @@
 namespace shearwater::bench {
 namespace {
 
-struct Flags {
+struct TreesFlags {
     Options common;
     std::vector<std::int64_t> edges{64, 128, 256, 512, 1024};
     std::vector<int> nodes{1, 3, 7, 15, 31};
@@ -31,12 +31,12 @@ struct Drawn {
     int renderers = 1;
 };
 
-std::string title(const Flags& flags, std::int64_t edge, int nodes) {
+std::string title(const TreesFlags& flags, std::int64_t edge, int nodes) {
     return flags.workload + " " + std::to_string(edge) + "^3, " +
            (nodes == 1 ? "one process" : std::to_string(nodes) + " nodes");
 }
 
-base::Result<Drawn> draw_here(const Flags& flags, std::int64_t edge) {
+base::Result<Drawn> draw_here(const TreesFlags& flags, std::int64_t edge) {
     const Workload work = workload(flags.workload);
     deploy::ProgressBar bar(title(flags, edge, 1));
     const auto show = [&](double share) { bar.show(share); };
@@ -57,7 +57,7 @@ base::Result<Drawn> draw_here(const Flags& flags, std::int64_t edge) {
                  .encode = all.encode};
 }
 
-base::Result<Drawn> draw_by_tree(const Flags& flags, std::int64_t edge, int nodes) {
+base::Result<Drawn> draw_by_tree(const TreesFlags& flags, std::int64_t edge, int nodes) {
     const Workload work = workload(flags.workload);
     const int levels = std::countr_one(static_cast<unsigned>(nodes));
     auto tree = OnTree::start(work.cube(edge), 2, levels, flags.common.threads);
@@ -88,7 +88,7 @@ base::Result<Drawn> draw_by_tree(const Flags& flags, std::int64_t edge, int node
                  .renderers = tree->renderers()};
 }
 
-Record row(const Flags& flags, std::int64_t edge, int nodes, const Drawn& drawn,
+Record row(const TreesFlags& flags, std::int64_t edge, int nodes, const Drawn& drawn,
            std::optional<double> three_nodes) {
     const double seconds = drawn.total.median;
     const auto paper = paper::tree_seconds(edge, nodes);
@@ -120,7 +120,7 @@ Record row(const Flags& flags, std::int64_t edge, int nodes, const Drawn& drawn,
     return record;
 }
 
-base::Status trees(const Flags& flags) {
+base::Status trees(const TreesFlags& flags) {
     for (const std::int64_t edge : flags.edges) {
         if (const auto view = flags.common.view(edge); !view) {
             return view.error();
@@ -159,7 +159,7 @@ std::string check_nodes(const std::string& text) {
 }  // namespace
 
 Run add_trees(CLI::App& app) {
-    auto flags = std::make_shared<Flags>();
+    auto flags = std::make_shared<TreesFlags>();
     add_sizes(app, flags->edges);
     app.add_option("--nodes", flags->nodes, "of binary trees, with commas between; 1: in one process")
         ->delimiter(',')

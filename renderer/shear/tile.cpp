@@ -14,9 +14,6 @@ using view::Rect;
 
 namespace {
 
-constexpr std::int64_t micro_edge = CodeVolume::micro_edge;
-constexpr std::int64_t octant_edge = CodeVolume::octant_edge;
-
 // Extinctions of nodes that differ by less than these halvings of light a step are not told apart: as much as
 // one opacity in a hundred, at most half of which a sample is wrong by, this way or that.
 constexpr float jump_seen = 1.0F / 64;
@@ -128,7 +125,7 @@ std::int64_t Tile<Code>::cell_of(std::int64_t k) const {
 // Its layer, counted from the sub-volume's first.
 template <class Code>
 std::int64_t Tile<Code>::micro_layer(std::int64_t k) const {
-    return cell_of(k) / micro_edge - codes_.micro_bricks().first(plan_.face().axis);
+    return cell_of(k) / CodeVolume::micro_edge - codes_.micro_bricks().first(plan_.face().axis);
 }
 
 // With the pixels of the tile that the sub-volume owns on it, counted from the tile's first; its voxels are
@@ -154,12 +151,12 @@ void Tile<Code>::render_slices(Slices slices, std::span<const std::int64_t> numb
     const std::int64_t number = micro_layer(numbers.front());
     const VoxelRegion region = region_of(slices, numbers, codes_.own());
     const auto run = [&](std::size_t n, int axis, std::int64_t edge) {
-        const std::int64_t first = codes_.micro_bricks().first(axis) * micro_edge;
+        const std::int64_t first = codes_.micro_bricks().first(axis) * CodeVolume::micro_edge;
         return MicroRun{(region.lo[n] - first) / edge, (region.hi[n] - 1 - first) / edge + 1};
     };
     const int fast_axis = plan_.fast_axis(), slow_axis = plan_.slow_axis();
-    const MicroLayer layer(codes_, contents_, plan_, number, run(0, fast_axis, micro_edge),
-                           run(1, slow_axis, micro_edge));
+    const MicroLayer layer(codes_, contents_, plan_, number, run(0, fast_axis, CodeVolume::micro_edge),
+                           run(1, slow_axis, CodeVolume::micro_edge));
     if (layer.visit() == Visit::none) {
         return;
     }
@@ -169,8 +166,10 @@ void Tile<Code>::render_slices(Slices slices, std::span<const std::int64_t> numb
     }
     // Half a layer at a time, front to back.
     const std::int64_t middle =
-        (codes_.micro_bricks().first(plan_.face().axis) + number) * micro_edge + octant_edge;
-    const MicroRun fast = run(0, fast_axis, octant_edge), slow = run(1, slow_axis, octant_edge);
+        (codes_.micro_bricks().first(plan_.face().axis) + number) * CodeVolume::micro_edge +
+        CodeVolume::octant_edge;
+    const MicroRun fast = run(0, fast_axis, CodeVolume::octant_edge),
+                   slow = run(1, slow_axis, CodeVolume::octant_edge);
     for (std::size_t first = 0, end = 0; first < slices.size(); first = end) {
         const bool farther = cell_of(numbers[first]) >= middle;
         while (end < slices.size() && (cell_of(numbers[end]) >= middle) == farther) {
@@ -218,9 +217,10 @@ void Tile<Code>::render_piece(Slices slices, std::span<const std::int64_t> numbe
                               const MicroRun& fast, const MicroRun& slow) {
     const auto within = [&](int axis, const PixelRange& pixels, double offset, double scale,
                             const MicroRun& octants, const MicroRun& all) {
-        const std::int64_t first = codes_.micro_bricks().first(axis) * micro_edge;
-        return pixels_within(pixels, offset, scale, static_cast<double>(first + octants.first * octant_edge),
-                             static_cast<double>(first + octants.end * octant_edge),
+        const std::int64_t first = codes_.micro_bricks().first(axis) * CodeVolume::micro_edge;
+        return pixels_within(pixels, offset, scale,
+                             static_cast<double>(first + octants.first * CodeVolume::octant_edge),
+                             static_cast<double>(first + octants.end * CodeVolume::octant_edge),
                              octants.first == all.first, octants.end == all.end);
     };
     std::array<Slice<Code>, Slab<Code>::max_slices> part;

@@ -13,8 +13,6 @@ using view::SliceMap;
 
 namespace {
 
-constexpr std::int64_t micro_edge = CodeVolume::micro_edge;
-
 // The coordinates that the first and the last of some pixels lie at, the lesser first.
 std::pair<double, double> ends_of(double offset, double scale, int first, int end) {
     const double a = offset + scale * first;
@@ -69,7 +67,7 @@ VoxelRegion Tile<Code>::region_of(const MicroRun& fast, const MicroRun& slow,
     for (std::size_t n = 0; n < axes.size(); ++n) {
         const MicroRun& octants = n == 0 ? fast : slow;
         const auto a = static_cast<std::size_t>(axes[n]);
-        const std::int64_t first = codes_.micro_bricks().first(axes[n]) * micro_edge;
+        const std::int64_t first = codes_.micro_bricks().first(axes[n]) * CodeVolume::micro_edge;
         region.lo[n] = std::max(first + octants.first * CodeVolume::octant_edge, codes_.own().lo[a]);
         region.hi[n] = std::min(first + octants.end * CodeVolume::octant_edge, codes_.own().hi[a]);
     }
@@ -105,7 +103,7 @@ VoxelRegion Tile<Code>::between_planes(std::int64_t lo, std::int64_t hi) const {
 // a plane behind it.
 template <class Code>
 typename Tile<Code>::Block Tile<Code>::block_of(const VoxelRegion& region) const {
-    constexpr std::int64_t edge = 2 * micro_edge;
+    constexpr std::int64_t edge = 2 * CodeVolume::micro_edge;
     constexpr std::int64_t planes = edge * static_cast<std::int64_t>(std::tuple_size_v<Block>);
     const auto axis = static_cast<std::size_t>(plan_.face().axis);
     const std::int64_t last = edge - (classification_.segments || !plan_.on_planes() ? 0 : 1);
@@ -123,7 +121,7 @@ typename Tile<Code>::Block Tile<Code>::block_of(const VoxelRegion& region) const
 template <class Code>
 VoxelRegion Tile<Code>::behind(const VoxelRegion& region) const {
     const auto axis = static_cast<std::size_t>(plan_.face().axis);
-    const std::int64_t away = plan_.face().sign * micro_edge;
+    const std::int64_t away = plan_.face().sign * CodeVolume::micro_edge;
     const auto plane = [&](std::int64_t w) { return std::clamp(w + away, nodes_.lo[axis], nodes_.hi[axis]); };
     return between_planes(plane(region.lo[2]), plane(region.hi[2]));
 }

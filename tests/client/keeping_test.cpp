@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-const view::Lattice lattice{.n = {64, 32, 16}};
+const view::Lattice kept_lattice{.n = {64, 32, 16}};
 constexpr wire::Time start = wire::Time{} + 1000s;
 
 TEST(History, ADragIsOneStep) {
@@ -111,7 +111,7 @@ TEST(Transition, GoesTheShorterWayAndEndsExactly) {
         .orbit = {-170, 80, 10, {1, 2, 3}, 170}, .projection = view::Projection::parallel, .fov = 60};
     Transition transition;
     EXPECT_FALSE(transition.at(start));
-    transition.begin(from, to, start, lattice);
+    transition.begin(from, to, start, kept_lattice);
     EXPECT_EQ(*transition.destination(), to);
     EXPECT_NEAR(transition.at(start)->orbit.azimuth, 170, 1e-9);
     const Viewpoint middle = *transition.at(start + Transition::length / 2);
@@ -119,7 +119,7 @@ TEST(Transition, GoesTheShorterWayAndEndsExactly) {
     EXPECT_NEAR(std::abs(middle.orbit.roll), 180, 1e-9);
     EXPECT_NEAR(middle.orbit.elevation, 50, 1e-9);
     EXPECT_NEAR(middle.orbit.target.y, 1, 1e-9);
-    EXPECT_NEAR(middle.orbit.distance, std::sqrt(10 * distance_of(from, lattice)), 1e-9);
+    EXPECT_NEAR(middle.orbit.distance, std::sqrt(10 * distance_of(from, kept_lattice)), 1e-9);
     EXPECT_EQ(*transition.at(start + Transition::length), to);
     EXPECT_FALSE(transition.under_way());
     EXPECT_FALSE(transition.at(start + 1s));
@@ -128,12 +128,12 @@ TEST(Transition, GoesTheShorterWayAndEndsExactly) {
 TEST(Transition, IsSmoothAndValidAllTheWay) {
     const Viewpoint from{.orbit = {0, -90, 1, {5, 5, 5}}}, to{.orbit = {180, 90, 0}, .fov = 120};
     Transition transition;
-    transition.begin(from, to, start, lattice);
+    transition.begin(from, to, start, kept_lattice);
     double last = -90;
     for (auto time = 0ms; time < Transition::length; time += 5ms) {
         const auto at = transition.at(start + time);
         ASSERT_TRUE(at && view::validate(*at));
-        EXPECT_TRUE(view::validate(camera(*at, lattice), {64, 64}));
+        EXPECT_TRUE(view::validate(camera(*at, kept_lattice), {64, 64}));
         EXPECT_GE(at->orbit.elevation, last);
         EXPECT_LT(at->orbit.elevation - last, 10);
         last = at->orbit.elevation;
@@ -164,7 +164,7 @@ TEST(Keeping, ASceneIsAllOfTheWishButTheSize) {
 Cube cube_named(const std::string& name) {
     Cube cube;
     cube.name = name;
-    cube.lattice = lattice;
+    cube.lattice = kept_lattice;
     return cube;
 }
 

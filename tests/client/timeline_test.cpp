@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const view::Lattice lattice{.n = {40, 50, 60}};
+const view::Lattice filmed_lattice{.n = {40, 50, 60}};
 
 view::Viewpoint from(double azimuth) {
     view::Viewpoint viewpoint;
@@ -90,7 +90,7 @@ TEST(Timeline, WithoutItsFirstKeyTheNextOneBegins) {
     timeline.remove_selected();
     EXPECT_TRUE(timeline.empty());
     timeline.remove_selected();
-    EXPECT_FALSE(timeline.seen(lattice));
+    EXPECT_FALSE(timeline.seen(filmed_lattice));
 }
 
 TEST(Timeline, PlaysFromTheNeedleToTheEndByTheClock) {
@@ -99,17 +99,17 @@ TEST(Timeline, PlaysFromTheNeedleToTheEndByTheClock) {
     timeline.seek(1);
     timeline.play(now);
     EXPECT_TRUE(timeline.playing());
-    const auto half = timeline.advance(now + 1s, lattice);
+    const auto half = timeline.advance(now + 1s, filmed_lattice);
     ASSERT_TRUE(half);
-    EXPECT_EQ(half->viewpoint, flight::seen_at(timeline.path(), 2, lattice).viewpoint);
+    EXPECT_EQ(half->viewpoint, flight::seen_at(timeline.path(), 2, filmed_lattice).viewpoint);
     EXPECT_DOUBLE_EQ(timeline.at(), 2);
-    const auto last = timeline.advance(now + 10s, lattice);
+    const auto last = timeline.advance(now + 10s, filmed_lattice);
     ASSERT_TRUE(last);
     EXPECT_EQ(last->viewpoint, from(60));
     EXPECT_FALSE(timeline.playing());
-    EXPECT_FALSE(timeline.advance(now + 11s, lattice));
+    EXPECT_FALSE(timeline.advance(now + 11s, filmed_lattice));
     timeline.play(now + 20s);  // once more, from the begin
-    EXPECT_EQ(timeline.advance(now + 20s, lattice)->viewpoint, from(0));
+    EXPECT_EQ(timeline.advance(now + 20s, filmed_lattice)->viewpoint, from(0));
     timeline.seek(0.5);
     EXPECT_FALSE(timeline.playing()) << "whoever takes the needle stops it";
 }
@@ -121,7 +121,7 @@ TEST(Timeline, OneKeyIsNoFlight) {
     timeline.keep(from(3), view::default_transfer_function());
     timeline.play({});
     EXPECT_FALSE(timeline.playing());
-    EXPECT_EQ(timeline.seen(lattice)->viewpoint, from(3));
+    EXPECT_EQ(timeline.seen(filmed_lattice)->viewpoint, from(3));
 }
 
 }  // namespace

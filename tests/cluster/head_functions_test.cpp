@@ -11,7 +11,7 @@ using namespace std::chrono_literals;
 using culling::Kind;
 
 constexpr wire::LinkId client{7}, other{8};
-const wire::Time start{};
+const wire::Time begun{};
 
 view::TransferFunction hats(double centre, double height) {
     return {.opacity_pins = {view::Hat{centre, 0.1, 0.2, height}},
@@ -39,29 +39,29 @@ wire::FunctionPart part(std::uint64_t number, int place, bool coarse, int first,
 
 TEST(HeadFunctions, AreAskedForOnceAViewNeedsThem) {
     Functions functions(2);
-    EXPECT_FALSE(functions.take_wanted(start + 1s));
+    EXPECT_FALSE(functions.take_wanted(begun + 1s));
     EXPECT_FALSE(functions.need(client, hats(0.5, 0.4), Kind::opof, 0)) << "nothing is there";
-    const auto want = wanted(functions, start + 2s);
+    const auto want = wanted(functions, begun + 2s);
     ASSERT_EQ(want.wants_size(), 1);
     const auto key = wire::function_key_from(want.wants(0).key()).value();
     EXPECT_EQ(key.footprint, culling::Footprint::column);
-    EXPECT_FALSE(functions.take_wanted(start + 3s)) << "no news";
+    EXPECT_FALSE(functions.take_wanted(begun + 3s)) << "no news";
 }
 
 // No function is asked for again where only a height changes.
 TEST(HeadFunctions, AreOfAllHeights) {
     Functions functions(1);
     functions.need(client, hats(0.5, 0.4), Kind::opof, 0);
-    EXPECT_EQ(wanted(functions, start + 1s).wants_size(), 1);
+    EXPECT_EQ(wanted(functions, begun + 1s).wants_size(), 1);
     for (const double height : {0.002, 0.1, 0.55, 0.9, 1.0}) {
         functions.need(client, hats(0.5, height), Kind::opof, 0);
-        EXPECT_FALSE(functions.take_wanted(start + 9s)) << height;
+        EXPECT_FALSE(functions.take_wanted(begun + 9s)) << height;
     }
 }
 
 TEST(HeadFunctions, WaitUntilAShapeRests) {
     Functions functions(1);
-    wire::Time now = start + 1s;
+    wire::Time now = begun + 1s;
     for (int step = 0; step < 20; ++step, now += 50ms) {
         functions.need(client, hats(0.3 + 0.01 * step, 0.4), Kind::opof, 0);
         EXPECT_FALSE(functions.take_wanted(now)) << step;
@@ -77,22 +77,22 @@ TEST(HeadFunctions, OfAllClientsAndLevelsAreWanted) {
     functions.need(client, hats(0.5, 0.4), Kind::opof, 0);
     functions.need(client, hats(0.5, 0.4), Kind::opof, 1);
     functions.need(other, hats(0.7, 0.4), Kind::pof, 0);
-    EXPECT_EQ(wanted(functions, start + 1s).wants_size(), 3);
+    EXPECT_EQ(wanted(functions, begun + 1s).wants_size(), 3);
     functions.forget(other);
-    EXPECT_EQ(wanted(functions, start + 2s).wants_size(), 2);
+    EXPECT_EQ(wanted(functions, begun + 2s).wants_size(), 2);
 }
 
 TEST(HeadFunctions, ThatCameAreKnownByPlace) {
     Functions functions(2);
     functions.need(client, hats(0.5, 0.4), Kind::opof, 0);
-    const std::uint64_t number = wanted(functions, start + 1s).wants(0).number();
-    EXPECT_TRUE(functions.came(part(number, 3, true, 0, 648), start + 2s));
+    const std::uint64_t number = wanted(functions, begun + 1s).wants(0).number();
+    EXPECT_TRUE(functions.came(part(number, 3, true, 0, 648), begun + 2s));
     EXPECT_TRUE(functions.need(client, hats(0.5, 0.4), Kind::opof, 0)) << "coarse ones do";
-    EXPECT_TRUE(functions.came(part(number, 3, false, 0, 400), start + 2s));
-    EXPECT_TRUE(functions.came(part(number, 3, false, 400, 248), start + 2s));
-    EXPECT_FALSE(functions.came(part(number + 1, 3, false, 0, 648), start + 2s)) << "never asked for";
+    EXPECT_TRUE(functions.came(part(number, 3, false, 0, 400), begun + 2s));
+    EXPECT_TRUE(functions.came(part(number, 3, false, 400, 248), begun + 2s));
+    EXPECT_FALSE(functions.came(part(number + 1, 3, false, 0, 648), begun + 2s)) << "never asked for";
     functions.need(other, hats(0.1, 0.4), Kind::opof, 0);
-    const auto want = wanted(functions, start + 3s);
+    const auto want = wanted(functions, begun + 3s);
     ASSERT_EQ(want.wants_size(), 2);
     for (const auto& one : want.wants()) {
         EXPECT_EQ(one.known_size(), one.number() == number ? 1 : 0);
@@ -102,13 +102,13 @@ TEST(HeadFunctions, ThatCameAreKnownByPlace) {
 TEST(HeadFunctions, ThatDoNotComeAreAskedForAgain) {
     Functions functions(1);
     functions.need(client, hats(0.5, 0.4), Kind::opof, 0);
-    const auto first = wanted(functions, start + 1000s);
-    EXPECT_FALSE(functions.take_wanted(start + 1010s));
-    const auto again = functions.take_wanted(start + 1001s + Functions::patience + 1s);
+    const auto first = wanted(functions, begun + 1000s);
+    EXPECT_FALSE(functions.take_wanted(begun + 1010s));
+    const auto again = functions.take_wanted(begun + 1001s + Functions::patience + 1s);
     ASSERT_TRUE(again);
     EXPECT_NE(std::get<wire::pb::WantFunctions>(again->body).renewal(), first.renewal());
-    functions.came(part(first.wants(0).number(), 1, false, 0, 648), start + 1200s);
-    EXPECT_FALSE(functions.take_wanted(start + 9000s)) << "all are there";
+    functions.came(part(first.wants(0).number(), 1, false, 0, 648), begun + 1200s);
+    EXPECT_FALSE(functions.take_wanted(begun + 9000s)) << "all are there";
 }
 
 TEST(HeadFunctions, LongUnusedAreDropped) {

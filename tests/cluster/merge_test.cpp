@@ -18,7 +18,7 @@ using wire::LinkId;
 const volume::Box low{{0, 0, 0}, {4, 8, 8}};
 const volume::Box high{{4, 0, 0}, {8, 8, 8}};
 
-view::Factorisation factorisation() {
+view::Factorisation merged_view() {
     const view::Lattice lattice{.n = {9, 9, 9}, .spacing = {1, 1, 1}};
     return view::factorise(view::camera_on({}, lattice), {.width = 32, .height = 32}, lattice, {1});
 }
@@ -58,7 +58,7 @@ struct Merging : testing::Test {
         }
         pb::Render render;
         render.set_frame(1);
-        branch.begin(factorisation(), render, {}, effects);
+        branch.begin(merged_view(), render, {}, effects);
         const wire::Message from_low = answer(low_rect, red, 1e6, 100);
         const wire::Message from_high = answer(high_rect, green, 2e6, 1000);
         payload = from_low.payload_size() + from_high.payload_size();

@@ -9,7 +9,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const wire::Time start{};
+const wire::Time asked_at{};
 
 view::Factorisation ray(int sign) {
     view::Factorisation made;
@@ -21,7 +21,7 @@ view::Factorisation ray(int sign) {
 TEST(Probes, PutPartsInVisibilityOrder) {
     for (const int sign : {1, -1}) {
         Probes probes;
-        probes.begin(5, ray(sign), {0, 1, 2}, false, start);
+        probes.begin(5, ray(sign), {0, 1, 2}, false, asked_at);
         probes.answer(1, {5,
                           sign > 0 ? std::vector<view::RaySample>{{7, 1}, {9, 2}}
                                    : std::vector<view::RaySample>{{9, 2}, {7, 1}},
@@ -44,7 +44,7 @@ TEST(Probes, PutPartsInVisibilityOrder) {
 // Whatever children say, what goes on is in order: a parent takes nothing else.
 TEST(Probes, ASliceClaimedTwiceIsTakenOnce) {
     Probes probes;
-    probes.begin(5, ray(1), {0, 1}, false, start);
+    probes.begin(5, ray(1), {0, 1}, false, asked_at);
     probes.answer(0, {5, {{9, 1}, {2, 3}}, false});
     probes.answer(1, {5, {{2, 4}, {9, 2}, {11, 1}}, false});
     const auto complete = probes.take_complete();
@@ -55,8 +55,8 @@ TEST(Probes, ASliceClaimedTwiceIsTakenOnce) {
 
 TEST(Probes, GoOnWithoutAChildThatIsGoneOrSilent) {
     Probes probes;
-    probes.begin(5, ray(1), {0, 1}, false, start);
-    probes.begin(6, ray(1), {1}, false, start);
+    probes.begin(5, ray(1), {0, 1}, false, asked_at);
+    probes.begin(6, ray(1), {1}, false, asked_at);
     probes.answer(1, {5, {{2, 4}}, false});
     probes.child_gone(0);
     auto complete = probes.take_complete();
@@ -65,9 +65,9 @@ TEST(Probes, GoOnWithoutAChildThatIsGoneOrSilent) {
     EXPECT_TRUE(complete[0].incomplete);
     EXPECT_EQ(complete[0].samples.size(), 1U);
 
-    probes.tick(start + Probes::patience);
+    probes.tick(asked_at + Probes::patience);
     EXPECT_TRUE(probes.take_complete().empty());
-    probes.tick(start + Probes::patience + 1ms);
+    probes.tick(asked_at + Probes::patience + 1ms);
     complete = probes.take_complete();
     ASSERT_EQ(complete.size(), 1U);
     EXPECT_EQ(complete[0].number, 6U);
@@ -78,7 +78,7 @@ TEST(Probes, GoOnWithoutAChildThatIsGoneOrSilent) {
 
 TEST(Probes, WithNobodyToAskAreAnsweredAtOnce) {
     Probes probes;
-    probes.begin(5, ray(1), {}, true, start);
+    probes.begin(5, ray(1), {}, true, asked_at);
     const auto complete = probes.take_complete();
     ASSERT_EQ(complete.size(), 1U);
     EXPECT_TRUE(complete[0].incomplete);
@@ -87,7 +87,7 @@ TEST(Probes, WithNobodyToAskAreAnsweredAtOnce) {
 TEST(Probes, AreBounded) {
     Probes probes;
     for (std::uint64_t number = 1; number <= 2 * Probes::most_pending; ++number) {
-        probes.begin(number, ray(1), {0}, false, start);
+        probes.begin(number, ray(1), {0}, false, asked_at);
         EXPECT_LE(probes.pending(), Probes::most_pending);
     }
     const auto complete = probes.take_complete();

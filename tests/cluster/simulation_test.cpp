@@ -51,7 +51,7 @@ std::vector<tree::Place> all_daemons(const support::Simulation& simulation) {
     return places;
 }
 
-constexpr volume::Index3 cube{11, 9, 13};
+constexpr volume::Index3 small_cube{11, 9, 13};
 
 // Whatever the order in which daemons join and messages arrive, the tree becomes ready, its limits are the
 // cube's, and the picture is the same.
@@ -59,10 +59,10 @@ TEST(Simulation, EveryOrderOfJoiningEndsInTheSamePicture) {
     Waves source(true);
     std::optional<image::Image<image::Rgba8>> first;
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
-        support::Simulation simulation(seed, *tree::full_tree(2, 3), cube, source);
+        support::Simulation simulation(seed, *tree::full_tree(2, 3), small_cube, source);
         std::vector<tree::Place> places = all_daemons(simulation);
         std::ranges::shuffle(places, simulation.fabric().random());
-        const wire::View view = view_of(cube);
+        const wire::View view = view_of(small_cube);
         const std::uint64_t revision = simulation.ask(view);
         for (const tree::Place place : places) {
             simulation.start_daemon(place);
@@ -81,8 +81,9 @@ TEST(Simulation, EveryOrderOfJoiningEndsInTheSamePicture) {
 
 constexpr volume::Index3 large_cube{70, 9, 11};  // with a level of its own for a sketch
 
-// However things fall, whoever welcomes sketches is sent the cube's picture in the end, unasked, and the
-// picture of a sketch, where one was sent, is the same for every tree. Whoever does not is never sent one.
+// However things fall, whoever welcomes sketches is sent the cube's picture in the end, unasked, and
+// the picture of a sketch, where one was sent, is the same for every tree. Whoever does not is never sent
+// one.
 TEST(Simulation, ASketchComesFirstAndTheCubeByItself) {
     Waves source(true);
     std::optional<image::Image<image::Rgba8>> sketch, whole;
@@ -138,7 +139,7 @@ TEST(Simulation, WhereNoSketchCanBeHadTheCubeIsWaitedFor) {
 // and when all are back the picture is whole and right.
 struct Storm {
     std::uint64_t seeds;
-    volume::Index3 n = cube;
+    volume::Index3 n = small_cube;
     view::ImageSize size = {.width = 24, .height = 20};
     int sketch_level = 0;
 };
@@ -195,9 +196,9 @@ TEST(Simulation, AnyStormOfDeathsWhileSketchesAreSeenEndsWhole) {
 // Of pictures in several bands: a daemon dies between two of a frame's.
 TEST(Simulation, AnyStormOfDeathsBetweenBandsEndsWhole) {
     constexpr view::ImageSize size{.width = 180, .height = 560};
-    const wire::View view = view_of(cube, size);
-    const auto factorisation = view::factorise(view.camera, view.size, {.n = cube, .spacing = {1, 1, 1}},
-                                               view::sampling(view.quality));
+    const wire::View view = view_of(small_cube, size);
+    const auto factorisation = view::factorise(
+        view.camera, view.size, {.n = small_cube, .spacing = {1, 1, 1}}, view::sampling(view.quality));
     ASSERT_GE(view::bands_of(factorisation).size(), 3U);
     storm({.seeds = 10, .size = size});
 }
@@ -287,13 +288,13 @@ TEST(Simulation, PairsOfEyesComeTogether) {
     Waves source(true);
     std::vector<image::Image<image::Rgba8>> first;
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
-        support::Simulation simulation(seed, *tree::full_tree(2, 2 + static_cast<int>(seed % 2)), cube,
+        support::Simulation simulation(seed, *tree::full_tree(2, 2 + static_cast<int>(seed % 2)), small_cube,
                                        source);
         const std::vector<tree::Place> places = all_daemons(simulation);
         for (const tree::Place place : places) {
             simulation.start_daemon(place);
         }
-        wire::View view = view_of(cube);
+        wire::View view = view_of(small_cube);
         view.stereo = view::StereoSettings();
         view.crop = volume::Box{{1, 0, 2}, {9, 8, 12}};
         if (seed % 3 == 0) {

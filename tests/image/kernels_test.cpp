@@ -11,21 +11,17 @@
 #include "common/image/lit_blocks.h"
 #include "common/image/over.h"
 #include "common/image/rle.h"
+#include "tests/support/random_pixels.h"
 #include "tests/support/simd_targets.h"
 
 namespace shearwater::image {
 namespace {
 
 using support::for_each_target;
-
-RgbaF random_pixel(std::mt19937& random) {
-    std::uniform_real_distribution<float> unit(0, 1);
-    const float a = unit(random);
-    return {a * unit(random), a * unit(random), a * unit(random), a};
-}
+using support::random_pixel;
 
 // Some of them transparent, or out of what a pixel can be.
-std::vector<RgbaF> random_pixels(std::mt19937& random, std::size_t count) {
+std::vector<RgbaF> wild_pixels(std::mt19937& random, std::size_t count) {
     std::vector<RgbaF> pixels(count);
     for (RgbaF& pixel : pixels) {
         const auto kind = random() % 8;
@@ -77,15 +73,15 @@ void expect_over(const std::vector<RgbaF>& before, const std::vector<Pixel>& bac
 
 TEST(Kernels, OverFollowsItsEquations) {
     for_widths([](std::mt19937& random, std::size_t width) {
-        const auto front = random_pixels(random, width + 3);
-        expect_over(front, random_pixels(random, width + 4), random() % 3, width);
+        const auto front = wild_pixels(random, width + 3);
+        expect_over(front, wild_pixels(random, width + 4), random() % 3, width);
         expect_over(front, random_levels(random, width + 4), random() % 3, width);
     });
 }
 
 TEST(Kernels, SixteenBitsAreTheNearestLevelAndBack) {
     for_widths([](std::mt19937& random, std::size_t width) {
-        const auto pixels = random_pixels(random, width + 1);
+        const auto pixels = wild_pixels(random, width + 1);
         const Rgba16 untouched{1, 2, 3, 4};
         std::vector<Rgba16> levels(width + 2, untouched);
         to_16_bits(std::span(pixels).subspan(1), std::span(levels).subspan(1, width));

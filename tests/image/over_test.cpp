@@ -5,29 +5,13 @@
 #include <cmath>
 #include <random>
 
+#include "tests/support/random_pixels.h"
+
 namespace shearwater::image {
 namespace {
 
-RgbaF random_pixel(std::mt19937& random) {
-    std::uniform_real_distribution<float> unit(0, 1);
-    const float a = unit(random);
-    return {a * unit(random), a * unit(random), a * unit(random), a};
-}
-
-std::vector<RgbaF> random_pixels(std::mt19937& random, std::size_t count) {
-    std::vector<RgbaF> pixels(count);
-    for (RgbaF& pixel : pixels) {
-        pixel = random_pixel(random);
-    }
-    return pixels;
-}
-
-void expect_near(const RgbaF& p, const RgbaF& q, float tolerance) {
-    EXPECT_NEAR(p.r, q.r, tolerance);
-    EXPECT_NEAR(p.g, q.g, tolerance);
-    EXPECT_NEAR(p.b, q.b, tolerance);
-    EXPECT_NEAR(p.a, q.a, tolerance);
-}
+using support::expect_near;
+using support::random_pixels;
 
 TEST(Over, FollowsEquations4And5) {
     std::vector<RgbaF> front{{0.2F, 0.1F, 0, 0.25F}};

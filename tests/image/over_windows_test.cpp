@@ -6,22 +6,13 @@
 
 #include "common/image/canvas.h"
 #include "common/image/over.h"
+#include "tests/support/random_pixels.h"
 
 namespace shearwater::image {
 namespace {
 
-RgbaF random_pixel(std::mt19937& random) {
-    std::uniform_real_distribution<float> unit(0, 1);
-    const float a = unit(random);
-    return {a * unit(random), a * unit(random), a * unit(random), a};
-}
-
-void expect_near(const RgbaF& p, const RgbaF& q, float tolerance) {
-    EXPECT_NEAR(p.r, q.r, tolerance);
-    EXPECT_NEAR(p.g, q.g, tolerance);
-    EXPECT_NEAR(p.b, q.b, tolerance);
-    EXPECT_NEAR(p.a, q.a, tolerance);
-}
+using support::expect_near;
+using support::random_pixel;
 
 Window window_of(int face, const Rect& rect, const RgbaF& pixel) {
     Window window{.face = face, .rect = rect, .pixels = Image<RgbaF>(rect.width(), rect.height())};

@@ -8,18 +8,14 @@
 #include "common/image/layer.h"
 #include "common/image/resample.h"
 #include "common/image/resample_span.h"
+#include "tests/support/random_pixels.h"
 #include "tests/support/simd_targets.h"
 
 namespace shearwater::image {
 namespace {
 
 using support::for_each_target;
-
-RgbaF random_pixel(std::mt19937& random) {
-    std::uniform_real_distribution<float> unit(0, 1);
-    const float a = unit(random);
-    return {a * unit(random), a * unit(random), a * unit(random), a};
-}
+using support::random_pixel;
 
 void expect_near(const RgbaF& p, const RgbaF& q, float tolerance, const std::string& what) {
     ASSERT_NEAR(p.r, q.r, tolerance) << what;

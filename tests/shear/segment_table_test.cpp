@@ -22,12 +22,12 @@ TransferFunction with(std::vector<view::OpacityPin> pins) {
 }
 
 // Of a segment between two nodes.
-struct Segment {
+struct SegmentLook {
     double tau;  // mean extinction
     view::Rgb colour;
 };
 
-Segment by_table(const SegmentTable& table, int from, int to) {
+SegmentLook by_table(const SegmentTable& table, int from, int to) {
     const SegmentTable::Node& a = table.nodes()[from];
     const SegmentTable::Node& b = table.nodes()[to];
     const auto sum = [](float whole_a, float rest_a, float whole_b, float rest_b) {
@@ -39,13 +39,14 @@ Segment by_table(const SegmentTable& table, int from, int to) {
              sum(a.b, a.b_rest, b.b, b.b_rest) / depth}};
 }
 
-Segment by_integration(const TransferFunction& tf, const SegmentTable& table, int levels, int from, int to) {
+SegmentLook by_integration(const TransferFunction& tf, const SegmentTable& table, int levels, int from,
+                           int to) {
     const auto s_of = [&](double node) {
         const double code = node / static_cast<double>(table.nodes_per_code());
         return std::clamp((code - 1) / (levels - 1), 0.0, 1.0);
     };
     const int steps = 200 * std::abs(to - from) + 20000;
-    Segment mean{};
+    SegmentLook mean{};
     for (int i = 0; i < steps; ++i) {
         const double s = s_of(from + (to - from) * (i + 0.5) / steps);
         const double tau = tf.extinction(s);
@@ -79,8 +80,8 @@ TEST(SegmentTable, IsTheIntegral) {
                 if (to == from) {
                     continue;
                 }
-                const Segment got = by_table(table, from, to);
-                const Segment expected = by_integration(tf, table, levels, from, to);
+                const SegmentLook got = by_table(table, from, to);
+                const SegmentLook expected = by_integration(tf, table, levels, from, to);
                 ASSERT_NEAR(got.tau, expected.tau, 2e-3 * expected.tau + 1e-6)
                     << levels << ": " << from << " to " << to;
                 if (expected.tau > 1e-6) {
@@ -101,7 +102,7 @@ TEST(SegmentTable, KeepsHazeBesideAnOpaqueHat) {
             const SegmentTable table(tf, levels, OpacityTable(tf, levels));
             const int last = table.node_of(static_cast<float>(levels));
             for (int node = last / 2; node < last; ++node) {
-                const Segment got = by_table(table, node, node + 1);
+                const SegmentLook got = by_table(table, node, node + 1);
                 ASSERT_NEAR(got.tau / -std::log1p(-haze), 1, 1e-3) << haze << ", node " << node;
                 const auto s = std::min(1.0, (node + 0.5) / last);
                 ASSERT_NEAR(got.colour.g, tf.colour(s).g, 0.02);
@@ -158,7 +159,7 @@ TEST(SegmentTable, GathersSharesOfOneHue) {
     ASSERT_TRUE(colours.one_hue());
     const SegmentTable table(tf, 255, colours);
     const int middle = table.node_of(128);
-    const Segment segment = by_table(table, middle - 100, middle + 100);
+    const SegmentLook segment = by_table(table, middle - 100, middle + 100);
     EXPECT_NEAR(segment.colour.r * colours.hue().g, 0.2, 1e-4);
     EXPECT_EQ(segment.colour.g, 0);
 }

@@ -17,8 +17,8 @@ namespace {
 
 using Outcome = test::CompositedRays;
 
-constexpr int rows = 9, cells = 32, tile_rows = 12;
-constexpr std::ptrdiff_t ray_stride = widest_tile + ray_padding, plane_rows = rows + 1;
+constexpr int slab_rows = 9, slab_cells = 32, ray_rows = 12;
+constexpr std::ptrdiff_t row_of_rays = widest_tile + ray_padding, plane_rows = slab_rows + 1;
 
 view::TransferFunction hats() {
     return {.opacity_pins = {view::Hat{0.3, 0.01, 0.01, 0.6}, view::Hat{0.6, 0, 0.2, 0.4}, view::Flat{0.001}},
@@ -27,16 +27,16 @@ view::TransferFunction hats() {
 
 // Segments between slices of random voxels, before random rays.
 template <class Code>
-struct Trial {
+struct SegmentTrial {
     std::mt19937 random;
     std::vector<Code> voxels;
     std::vector<float> lengths;
     SegmentSlab<Code> slab{};
 
-    Trial(unsigned seed, bool blanks, int ends, bool halves, std::ptrdiff_t stride)
+    SegmentTrial(unsigned seed, bool blanks, int ends, bool halves, std::ptrdiff_t stride)
         : random(seed),
           voxels(static_cast<std::size_t>(stride * plane_rows * 11) + voxel_padding),
-          lengths(static_cast<std::size_t>(ray_stride * tile_rows)) {
+          lengths(static_cast<std::size_t>(row_of_rays * ray_rows)) {
         // Values near one another, so that short segments are among them, and equal ones.
         const int levels = sizeof(Code) == 1 ? 255 : 65535;
         for (Code& code : voxels) {
@@ -51,8 +51,8 @@ struct Trial {
         }
         slab.samples = {.fast_first = 5,
                         .slow_first = 7,
-                        .fast_cells = cells,
-                        .slow_cells = rows,
+                        .fast_cells = slab_cells,
+                        .slow_cells = slab_rows,
                         .stride = stride,
                         .ahead = {},
                         .fast_pixel = 100,
@@ -82,21 +82,21 @@ struct Trial {
         };
         for (int k = 0; k < ends; ++k) {
             Slice<Code>& slice = slab.samples.slices[static_cast<std::size_t>(k)];
-            slice.pixels = {i0, 0, i1, tile_rows};
+            slice.pixels = {i0, 0, i1, ray_rows};
             slice.fast_scale = (to - from) / std::max(i1 - i0 - 1, 1) * (1 - 0.01 * k);
             slice.fast_offset = from - slice.fast_scale * (i0 + 100) + 5;
-            slice.slow_scale = (rows - 0.02 * k) / (tile_rows - 1);
+            slice.slow_scale = (slab_rows - 0.02 * k) / (ray_rows - 1);
             slice.slow_offset = 0.01 * k - slice.slow_scale * 60 + 7;
-            add(k, k, {i0, k % 3, std::min(i0 + 1 + k, i1), tile_rows});
+            add(k, k, {i0, k % 3, std::min(i0 + 1 + k, i1), ray_rows});
             if (k + 1 < ends) {
-                add(k, k + 1, {std::min(i0 + k % 3, i1 - 1), k % 4, i1, tile_rows - k % 3});
+                add(k, k + 1, {std::min(i0 + k % 3, i1 - 1), k % 4, i1, ray_rows - k % 3});
             }
         }
     }
 
     template <class Composite>
     Outcome run(const SegmentTable& table, const Composite& composite) {
-        return test::composited_rays(lengths.size(), ray_stride,
+        return test::composited_rays(lengths.size(), row_of_rays,
                                      [&](const Rays& rays) { return composite(slab, table, rays); });
     }
 
@@ -124,7 +124,7 @@ void expect_definition(bool blanks) {
                              OpacityTable(hats(), sizeof(Code) == 1 ? 255 : 65535));
     for (const int ends : {1, 2, 5, 9}) {
         for (const bool halves : {false, true}) {
-            Trial<Code> trial(static_cast<unsigned>(ends), blanks, ends, halves, 47);
+            SegmentTrial<Code> trial(static_cast<unsigned>(ends), blanks, ends, halves, 47);
             SCOPED_TRACE(testing::Message()
                          << "ends " << ends << ", halves " << halves << ", blanks " << blanks);
             for (const int width : {1, 2, 15, 16, 17, 33, 64}) {
@@ -152,7 +152,7 @@ TEST(Segments, AreCompositedAsDefinedOnEveryTarget) {
 // One ray, one voxel column: what a segment makes of its two ends, by the formula.
 struct Column {
     std::vector<std::uint8_t> voxels = std::vector<std::uint8_t>(voxel_padding);
-    std::vector<float> lengths = std::vector<float>(ray_stride, 2);
+    std::vector<float> lengths = std::vector<float>(row_of_rays, 2);
     SegmentSlab<std::uint8_t> slab{};
 
     double alpha(const view::TransferFunction& tf, std::uint8_t front, std::uint8_t back) {
@@ -182,9 +182,9 @@ struct Column {
         }
         slab.count = 1;
         slab.segments[0] = {0, 1, {0, 0, 1, 1}, lengths.data()};
-        std::vector<float> r(ray_stride), g = r, b = r, a = r;
+        std::vector<float> r(row_of_rays), g = r, b = r, a = r;
         composite_segments(slab, SegmentTable(tf, 255, OpacityTable(tf, 255)),
-                           {r.data(), g.data(), b.data(), a.data(), ray_stride});
+                           {r.data(), g.data(), b.data(), a.data(), row_of_rays});
         EXPECT_NEAR(r[0], a[0], 1e-5);
         return static_cast<double>(a[0]);
     }

@@ -13,35 +13,35 @@ void expect_near(const Vec3& a, const Vec3& b, double tolerance = 1e-12) {
         << a.x << ' ' << a.y << ' ' << a.z << " is not " << b.x << ' ' << b.y << ' ' << b.z;
 }
 
-const Lattice lattice{{11, 21, 31}, {1, 2, 0.5}};
+const Lattice tall_lattice{{11, 21, 31}, {1, 2, 0.5}};
 
 TEST(Lattice, PutsTheMiddleOfTheCubeAtTheOrigin) {
-    expect_near(lattice.world_from_voxel({5, 10, 15}), {0, 0, 0});
-    expect_near(lattice.world_from_voxel({0, 0, 0}), {-5, -20, -7.5});
-    expect_near(lattice.voxel_from_world(lattice.world_from_voxel({1.5, 2, 30})), {1.5, 2, 30});
-    EXPECT_DOUBLE_EQ(lattice.diagonal(), std::sqrt(10.0 * 10 + 40 * 40 + 15 * 15));
+    expect_near(tall_lattice.world_from_voxel({5, 10, 15}), {0, 0, 0});
+    expect_near(tall_lattice.world_from_voxel({0, 0, 0}), {-5, -20, -7.5});
+    expect_near(tall_lattice.voxel_from_world(tall_lattice.world_from_voxel({1.5, 2, 30})), {1.5, 2, 30});
+    EXPECT_DOUBLE_EQ(tall_lattice.diagonal(), std::sqrt(10.0 * 10 + 40 * 40 + 15 * 15));
 }
 
 TEST(CameraOn, FollowsTheOrbitFormula) {
     const double az = 30 * M_PI / 180;
     const double el = 20 * M_PI / 180;
-    const Camera camera = camera_on({30, 20, 10, {1, 2, 3}}, lattice);
+    const Camera camera = camera_on({30, 20, 10, {1, 2, 3}}, tall_lattice);
     expect_near(camera.eye, Vec3(1, 2, 3) + 10.0 * Vec3(std::sin(az) * std::cos(el), std::sin(el),
                                                         std::cos(az) * std::cos(el)));
     expect_near(camera.up, {0, 1, 0});
 }
 
 TEST(CameraOn, StandsFarEnoughToSeeTheWholeCube) {
-    const Camera camera = camera_on({}, lattice);
-    EXPECT_NEAR(glm::length(camera.eye), lattice.diagonal() / 2 / std::sin(15 * M_PI / 180), 1e-9);
-    EXPECT_DOUBLE_EQ(camera_on({}, lattice, Projection::parallel).height, lattice.diagonal());
+    const Camera camera = camera_on({}, tall_lattice);
+    EXPECT_NEAR(glm::length(camera.eye), tall_lattice.diagonal() / 2 / std::sin(15 * M_PI / 180), 1e-9);
+    EXPECT_DOUBLE_EQ(camera_on({}, tall_lattice, Projection::parallel).height, tall_lattice.diagonal());
 }
 
 TEST(CameraOn, SeesOverThePoles) {
     for (const double elevation : {90.0, -90.0}) {
-        const Camera pole = camera_on({40, elevation, 10}, lattice);
+        const Camera pole = camera_on({40, elevation, 10}, tall_lattice);
         ASSERT_TRUE(validate(pole, {64, 64}).has_value());
-        const Camera near = camera_on({40, elevation * (1 - 1e-5), 10}, lattice);
+        const Camera near = camera_on({40, elevation * (1 - 1e-5), 10}, tall_lattice);
         expect_near(rays_of(pole, {64, 64}).dir_x, rays_of(near, {64, 64}).dir_x, 1e-4);
         expect_near(rays_of(pole, {64, 64}).dir_y, rays_of(near, {64, 64}).dir_y, 1e-4);
     }
@@ -52,21 +52,21 @@ TEST(CameraOn, RollLeansTheCameraToItsRight) {
         const Orbit upright{40, elevation, 10, {1, 2, 3}};
         Orbit leaning = upright;
         leaning.roll = 90;
-        const Rays before = rays_of(camera_on(upright, lattice), {64, 64});
-        const Rays after = rays_of(camera_on(leaning, lattice), {64, 64});
+        const Rays before = rays_of(camera_on(upright, tall_lattice), {64, 64});
+        const Rays after = rays_of(camera_on(leaning, tall_lattice), {64, 64});
         expect_near(after.dir_y, -before.dir_x);  // what was to the right is on top
         expect_near(after.dir_x, before.dir_y);
         leaning.roll = 180;
-        expect_near(rays_of(camera_on(leaning, lattice), {64, 64}).dir_x, -before.dir_x);
+        expect_near(rays_of(camera_on(leaning, tall_lattice), {64, 64}).dir_x, -before.dir_x);
         leaning.roll = 360;
-        expect_near(rays_of(camera_on(leaning, lattice), {64, 64}).dir_x, before.dir_x);
+        expect_near(rays_of(camera_on(leaning, tall_lattice), {64, 64}).dir_x, before.dir_x);
     }
 }
 
 TEST(PictureAxes, AreThoseOfTheRays) {
     for (const double roll : {0.0, 33.0, -170.0}) {
         const Orbit orbit{70, -35, 10, {1, 2, 3}, roll};
-        const Rays rays = rays_of(camera_on(orbit, lattice), {64, 64});
+        const Rays rays = rays_of(camera_on(orbit, tall_lattice), {64, 64});
         const PictureAxes axes = picture_axes(orbit);
         expect_near(glm::normalize(rays.dir_x), axes.right);
         expect_near(glm::normalize(rays.dir_y), -axes.up);
@@ -99,10 +99,10 @@ TEST(RaysOf, GivesAParallelPictureItsHeight) {
 }
 
 TEST(RaysInVoxelSpace, MeetTheSamePoints) {
-    const Rays world = rays_of(camera_on({30, 20}, lattice), {50, 50});
-    const Rays voxel = in_voxel_space(world, lattice);
+    const Rays world = rays_of(camera_on({30, 20}, tall_lattice), {50, 50});
+    const Rays voxel = in_voxel_space(world, tall_lattice);
     const Vec3 point = world.origin_at(3, 9) + 2.5 * world.direction_at(3, 9);
-    expect_near(voxel.origin_at(3, 9) + 2.5 * voxel.direction_at(3, 9), lattice.voxel_from_world(point),
+    expect_near(voxel.origin_at(3, 9) + 2.5 * voxel.direction_at(3, 9), tall_lattice.voxel_from_world(point),
                 1e-9);
 }
 

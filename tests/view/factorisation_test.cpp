@@ -14,7 +14,7 @@ namespace {
 
 using volume::Box;
 
-const Lattice lattice{{60, 41, 73}, {1, 1.3, 0.7}};
+const Lattice skewed_lattice{{60, 41, 73}, {1, 1.3, 0.7}};
 
 std::vector<Camera> cameras() {
     std::vector<Camera> all;
@@ -25,9 +25,9 @@ std::vector<Camera> cameras() {
         const double fov =
             std::array{20.0, 60.0, 100.0, 150.0, 175.0, 179.0}[static_cast<std::size_t>(i / 5 % 6)];
         const Vec3 target(unit(random), unit(random), unit(random));
-        all.push_back(
-            camera_on({unit(random) * 360, unit(random) * 180 - 90, distance * lattice.diagonal(), target},
-                      lattice, i % 4 == 3 ? Projection::parallel : Projection::perspective, fov));
+        all.push_back(camera_on(
+            {unit(random) * 360, unit(random) * 180 - 90, distance * skewed_lattice.diagonal(), target},
+            skewed_lattice, i % 4 == 3 ? Projection::parallel : Projection::perspective, fov));
     }
     return all;
 }
@@ -49,9 +49,9 @@ TEST(Factorise, CoversTheWholePicture) {
     const ImageSize size{64, 48};
     int seen = 0;
     for (const Camera& camera : cameras()) {
-        const Factorisation f = factorise(camera, size, lattice, {1});
+        const Factorisation f = factorise(camera, size, skewed_lattice, {1});
         ASSERT_TRUE(validate(f).has_value());
-        const Rays rays = in_voxel_space(rays_of(camera, size), lattice);
+        const Rays rays = in_voxel_space(rays_of(camera, size), skewed_lattice);
         for (int y = 0; y < size.height; ++y) {
             for (int x = 0; x < size.width; ++x) {
                 const Vec3 origin = rays.origin_at(x + 0.5, y + 0.5);
@@ -60,12 +60,13 @@ TEST(Factorise, CoversTheWholePicture) {
                 const int axis = across.x >= across.y && across.x >= across.z ? 0
                                  : across.y >= across.z                       ? 1
                                                                               : 2;
-                for (std::int64_t k = 0; k < lattice.n[static_cast<std::size_t>(axis)]; k += 7) {
+                for (std::int64_t k = 0; k < skewed_lattice.n[static_cast<std::size_t>(axis)]; k += 7) {
                     const double t = (static_cast<double>(k) - origin[axis]) / direction[axis];
                     const Vec3 p = origin + t * direction;
                     bool inside = t > 0 || f.projection == Projection::parallel;
                     for (int a = 0; a < 3; ++a) {
-                        const auto last = static_cast<double>(lattice.n[static_cast<std::size_t>(a)] - 1);
+                        const auto last =
+                            static_cast<double>(skewed_lattice.n[static_cast<std::size_t>(a)] - 1);
                         inside = inside && (a == axis || (p[a] >= 0 && p[a] <= last));
                     }
                     if (!inside) {
@@ -103,7 +104,7 @@ TEST(Factorise, GivesTheResolutionAskedFor) {
 TEST(Factorise, NeverExceedsItsLimits) {
     for (const Camera& camera : cameras()) {
         for (const ImageSize& size : {ImageSize{8192, 4096}, {1, 8192}, {8192, 1}, {1, 1}}) {
-            EXPECT_TRUE(validate(factorise(camera, size, lattice, {1.5})).has_value()) << size.width;
+            EXPECT_TRUE(validate(factorise(camera, size, skewed_lattice, {1.5})).has_value()) << size.width;
         }
     }
     const Lattice thin{{2, 100000, 2}, {1e-3, 1e-3, 1e3}};
@@ -114,18 +115,19 @@ TEST(Factorise, NeverExceedsItsLimits) {
 }
 
 TEST(Factorise, LeavesOutFacesThatSeeNothing) {
-    Camera away = camera_on({}, lattice);
+    Camera away = camera_on({}, skewed_lattice);
     away.target = 2.0 * away.eye;
-    EXPECT_TRUE(factorise(away, {64, 64}, lattice, {1}).faces.empty());
-    const Camera inside = camera_on({30, 20, 5}, lattice, Projection::perspective, 170);
-    EXPECT_GE(factorise(inside, {64, 64}, lattice, {1}).faces.size(), 5U);
-    EXPECT_EQ(factorise(camera_on({}, lattice, Projection::parallel), {64, 64}, lattice, {1}).faces.size(),
+    EXPECT_TRUE(factorise(away, {64, 64}, skewed_lattice, {1}).faces.empty());
+    const Camera inside = camera_on({30, 20, 5}, skewed_lattice, Projection::perspective, 170);
+    EXPECT_GE(factorise(inside, {64, 64}, skewed_lattice, {1}).faces.size(), 5U);
+    EXPECT_EQ(factorise(camera_on({}, skewed_lattice, Projection::parallel), {64, 64}, skewed_lattice, {1})
+                  .faces.size(),
               1U);
 }
 
 TEST(Step, IsTheDistanceBetweenTwoSlicesAlongTheRay) {
     for (const Camera& camera : cameras()) {
-        const Factorisation f = factorise(camera, {64, 64}, lattice, {1});
+        const Factorisation f = factorise(camera, {64, 64}, skewed_lattice, {1});
         for (const Face& face : f.faces) {
             const auto at = [&](double k) {
                 const SliceMap map = f.slice_map(face, k);
@@ -133,7 +135,7 @@ TEST(Step, IsTheDistanceBetweenTwoSlicesAlongTheRay) {
                 p[face.axis] = k;
                 p[face.u_axis()] = map.u_offset + map.u_scale * 7;
                 p[face.v_axis()] = map.v_offset + map.v_scale * 3;
-                return lattice.world_from_voxel(p);
+                return skewed_lattice.world_from_voxel(p);
             };
             EXPECT_NEAR(f.step(face, 7, 3) / glm::length(at(11) - at(10)), 1, 1e-6);
         }
@@ -167,7 +169,7 @@ TEST(PixelsBetween, DealsOutEveryPixelOnce) {
 TEST(WindowOf, HoldsEveryPixelThatReachesTheBox) {
     const Box box{{10, 5, 20}, {31, 33, 49}};
     for (const Camera& camera : cameras()) {
-        const Factorisation f = factorise(camera, {64, 48}, lattice, {1});
+        const Factorisation f = factorise(camera, {64, 48}, skewed_lattice, {1});
         for (const Face& face : f.faces) {
             const Rect window = window_of(f, face, box);
             const auto w = static_cast<std::size_t>(face.axis);
@@ -191,7 +193,7 @@ TEST(WindowOf, HoldsEveryPixelThatReachesTheBox) {
 }
 
 TEST(SlicesInFront, StopAtTheEye) {
-    Factorisation f{.lattice = lattice, .eye = {10.5, 20, 1e18}};
+    Factorisation f{.lattice = skewed_lattice, .eye = {10.5, 20, 1e18}};
     EXPECT_EQ(slices_in_front(f, {.axis = 0, .sign = 1}, 0, 59), (SliceRange{11, 59}));
     EXPECT_EQ(slices_in_front(f, {.axis = 0, .sign = -1}, 0, 59), (SliceRange{0, 10}));
     EXPECT_EQ(slices_in_front(f, {.axis = 1, .sign = 1}, 0, 40), (SliceRange{21, 40}));
@@ -201,14 +203,14 @@ TEST(SlicesInFront, StopAtTheEye) {
 }
 
 TEST(SlicesInFront, MayLieHalfAVoxelApart) {
-    Factorisation f{.lattice = lattice, .eye = {10.5, 20.25, 1e18}, .slice_exponent = -1};
+    Factorisation f{.lattice = skewed_lattice, .eye = {10.5, 20.25, 1e18}, .slice_exponent = -1};
     EXPECT_EQ(slices_in_front(f, {.axis = 0, .sign = 1}, 0, 59), (SliceRange{22, 118}));
     EXPECT_EQ(slices_in_front(f, {.axis = 0, .sign = -1}, 5, 59), (SliceRange{10, 20}));
     EXPECT_EQ(slices_in_front(f, {.axis = 1, .sign = 1}, 0, 40), (SliceRange{41, 80}));
     EXPECT_EQ(slices_in_front(f, {.axis = 1, .sign = -1}, 0, 40), (SliceRange{0, 40}));
     EXPECT_EQ(f.slice_place(41), 20.5);
     const Face face{.axis = 1, .width = 1, .height = 1, .pitch = {1, 1}};
-    EXPECT_EQ(f.step(face, 0, 0), 0.5 * Factorisation{.lattice = lattice}.step(face, 0, 0));
+    EXPECT_EQ(f.step(face, 0, 0), 0.5 * Factorisation{.lattice = skewed_lattice}.step(face, 0, 0));
 }
 
 // By walking over all slices: the fewest voxels from pixel to pixel where a face's pixels see the cube, but
@@ -317,7 +319,7 @@ TEST(Factorise, PreIntegratesOnTheFinerLevels) {
 }
 
 TEST(ValidateFactorisation, RefusesWhatAPeerMayMakeUp) {
-    const Factorisation good = factorise(camera_on({}, lattice), {64, 64}, lattice, {1});
+    const Factorisation good = factorise(camera_on({}, skewed_lattice), {64, 64}, skewed_lattice, {1});
     const auto fails = [&](const auto& spoil) {
         Factorisation bad = good;
         spoil(bad);
@@ -330,7 +332,7 @@ TEST(ValidateFactorisation, RefusesWhatAPeerMayMakeUp) {
     EXPECT_TRUE(fails([&](Factorisation& f) { f.lattice.spacing.x = nan; }));
     EXPECT_TRUE(fails([&](Factorisation& f) { f.eye.z = nan; }));
     EXPECT_FALSE(fails([](Factorisation& f) { f.slice_exponent = 1; }));
-    for (const int exponent : {-2, 2, 6, 1000}) {  // the lattice has one level but its voxels
+    for (const int exponent : {-2, 2, 6, 1000}) {  // the skewed_lattice has one level but its voxels
         EXPECT_TRUE(fails([&](Factorisation& f) { f.slice_exponent = exponent; })) << exponent;
     }
     EXPECT_TRUE(fails([](Factorisation& f) { f.faces.resize(7, f.faces[0]); }));
@@ -379,9 +381,9 @@ TEST(VisibilityOrder, IsFrontToBackAlongEveryRay) {
     std::uniform_real_distribution<double> unit(0, 1);
     int pairs = 0;
     for (const Camera& camera : cameras()) {
-        Factorisation f = factorise(camera, {32, 32}, lattice, {1});
+        Factorisation f = factorise(camera, {32, 32}, skewed_lattice, {1});
         std::vector<Box> boxes;
-        cut(random, volume::whole(lattice.n), 5, boxes);
+        cut(random, volume::whole(skewed_lattice.n), 5, boxes);
         std::shuffle(boxes.begin(), boxes.end(), random);
         const std::vector<int> order = visibility_order(f, boxes);
         ASSERT_EQ(order.size(), boxes.size());
@@ -424,7 +426,8 @@ TEST(VisibilityOrder, IsFrontToBackAlongEveryRay) {
 
 // Three beams in a ring hide one another: no order is right, but one is given.
 TEST(VisibilityOrder, EndsForARingOfBoxes) {
-    const Factorisation f{.projection = Projection::parallel, .lattice = lattice, .direction = {1, 1, 1}};
+    const Factorisation f{
+        .projection = Projection::parallel, .lattice = skewed_lattice, .direction = {1, 1, 1}};
     const std::vector<Box> ring{
         {{0, 0, 10}, {30, 10, 20}}, {{10, 0, 0}, {20, 30, 10}}, {{0, 10, 0}, {10, 20, 30}}};
     EXPECT_EQ(visibility_order(f, ring).size(), 3U);

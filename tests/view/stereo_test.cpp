@@ -12,14 +12,14 @@
 namespace shearwater::view {
 namespace {
 
-const Lattice lattice{{65, 49, 33}, {1, 1.5, 0.75}};
+const Lattice paired_lattice{{65, 49, 33}, {1, 1.5, 0.75}};
 const ImageSize size{301, 200};
 
-std::vector<Camera> cameras() {
+std::vector<Camera> pair_cameras() {
     std::vector<Camera> all;
     for (const Projection projection : {Projection::perspective, Projection::parallel}) {
         for (const double azimuth : {0.0, 33.0, 200.0}) {
-            all.push_back(camera_on({azimuth, 25, 140, {3, -2, 5}}, lattice, projection, 40));
+            all.push_back(camera_on({azimuth, 25, 140, {3, -2, 5}}, paired_lattice, projection, 40));
         }
     }
     return all;
@@ -31,7 +31,7 @@ Vec3 point_at(const Camera& camera, double across, double up, double depth) {
 }
 
 TEST(Project, InvertsTheRays) {
-    for (Camera camera : cameras()) {
+    for (Camera camera : pair_cameras()) {
         camera.slant = {0.3, -0.2};
         const Rays rays = rays_of(camera, size);
         for (const Vec2 pixel : {Vec2(0, 0), Vec2(17.5, 150.25), Vec2(301, 200)}) {
@@ -50,7 +50,7 @@ TEST(Project, InvertsTheRays) {
 }
 
 TEST(Stereo, HasAParallaxByTheFormulaAndNoneUpAndDown) {
-    for (const Camera& camera : cameras()) {
+    for (const Camera& camera : pair_cameras()) {
         for (const StereoSettings& settings : {StereoSettings{}, StereoSettings{6, 0, false},
                                                StereoSettings{9, 80, false}, StereoSettings{5, 200, true}}) {
             const auto eyes = eyes_of(camera, settings);
@@ -68,7 +68,7 @@ TEST(Stereo, HasAParallaxByTheFormulaAndNoneUpAndDown) {
 }
 
 TEST(Stereo, CrossesBeforeThePlaneAndNotBehindIt) {
-    for (const Camera& camera : cameras()) {
+    for (const Camera& camera : pair_cameras()) {
         const StereoSettings settings{8, 100, false};
         EXPECT_LT(parallax(camera, settings, 50, size), -1);
         EXPECT_NEAR(parallax(camera, settings, 100, size), 0, 1e-12);
@@ -79,7 +79,7 @@ TEST(Stereo, CrossesBeforeThePlaneAndNotBehindIt) {
 
 // The eyes are not turned towards each other: both see the plane in the same rectangle.
 TEST(Stereo, SharesOneProjectionPlane) {
-    for (const Camera& camera : cameras()) {
+    for (const Camera& camera : pair_cameras()) {
         const StereoSettings settings{11, 90, false};
         const auto eyes = eyes_of(camera, settings);
         const Axes axes = axes_of(camera);
@@ -102,7 +102,7 @@ TEST(Stereo, SharesOneProjectionPlane) {
 }
 
 TEST(Stereo, HasDefaultsOfTheTarget) {
-    const Camera camera = camera_on({10, 20, 150, {}}, lattice);
+    const Camera camera = camera_on({10, 20, 150, {}}, paired_lattice);
     EXPECT_NEAR(resolved({}, camera).convergence, 150, 1e-9);
     EXPECT_NEAR(resolved({}, camera).separation, 5, 1e-9);
     EXPECT_NEAR(resolved({0, 60, false}, camera).separation, 2, 1e-9);
@@ -110,7 +110,7 @@ TEST(Stereo, HasDefaultsOfTheTarget) {
 }
 
 TEST(Stereo, SwapsTheEyes) {
-    const Camera camera = camera_on({}, lattice);
+    const Camera camera = camera_on({}, paired_lattice);
     const auto eyes = eyes_of(camera, {4, 0, false}), swapped = eyes_of(camera, {4, 0, true});
     EXPECT_EQ(eyes[0], swapped[1]);
     EXPECT_EQ(eyes[1], swapped[0]);
@@ -118,7 +118,7 @@ TEST(Stereo, SwapsTheEyes) {
 }
 
 TEST(Stereo, RefusesWhatCannotBeSeen) {
-    const Camera camera = camera_on({0, 0, 100, {}}, lattice);
+    const Camera camera = camera_on({0, 0, 100, {}}, paired_lattice);
     const double infinity = std::numeric_limits<double>::infinity();
     EXPECT_TRUE(validate(StereoSettings{}, camera, size));
     EXPECT_TRUE(validate(StereoSettings{1000, 0, false}, camera, size));
@@ -134,7 +134,7 @@ TEST(Stereo, RefusesWhatCannotBeSeen) {
 }
 
 TEST(Slant, IsValidatedLikeAllElse) {
-    Camera camera = camera_on({}, lattice);
+    Camera camera = camera_on({}, paired_lattice);
     camera.slant = {6, 8};
     EXPECT_TRUE(validate(camera, size));
     for (const Vec2 bad : {Vec2(6, 8.1), Vec2(std::nan(""), 0), Vec2(0, HUGE_VAL)}) {

@@ -15,7 +15,7 @@
 namespace shearwater::volume {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float endless = std::numeric_limits<float>::infinity();
 constexpr float largest = std::numeric_limits<float>::max();
 
 Histogram of(std::span<const float> values) {
@@ -24,7 +24,7 @@ Histogram of(std::span<const float> values) {
     return histogram;
 }
 
-void expect_equal(const Histogram& a, const Histogram& b) {
+void expect_same_counts(const Histogram& a, const Histogram& b) {
     EXPECT_EQ(a.filled(), b.filled());
     EXPECT_EQ(a.valid(), b.valid());
     EXPECT_EQ(a.blank(), b.blank());
@@ -75,7 +75,7 @@ TEST(Histogram, SmallIntegersHaveABinEach) {
 
 TEST(Histogram, AnyDivisionAddsUpToTheWhole) {
     std::vector<float> values = normal(100000, 1);
-    values[5] = infinity;
+    values[5] = endless;
     values[77] = std::nanf("");
     values[99] = 1e38F;
     values[100] = -1e38F;
@@ -92,8 +92,8 @@ TEST(Histogram, AnyDivisionAddsUpToTheWhole) {
             EXPECT_TRUE(through_bins.merge(part.filled(), part.blank(), part.min(), part.max()));
             first += count;
         }
-        expect_equal(live, expected);
-        expect_equal(through_bins, expected);
+        expect_same_counts(live, expected);
+        expect_same_counts(through_bins, expected);
     }
 }
 
@@ -110,8 +110,8 @@ TEST(Histogram, EveryTargetCountsEachValueInItsBin) {
             const std::span<const float> values = std::span(all).subspan(count % 7, count);
             std::map<std::uint32_t, std::uint64_t> bins;
             std::uint64_t blank = 0;
-            float least = infinity;
-            float most = -infinity;
+            float least = endless;
+            float most = -endless;
             for (const float value : values) {
                 if (!std::isfinite(value)) {
                     ++blank;
@@ -184,7 +184,7 @@ TEST(Histogram, ZerosHaveZeroForTheirQuantiles) {
 }
 
 TEST(Histogram, AllBlankHasNoValues) {
-    const Histogram histogram = of(std::vector<float>{std::nanf(""), infinity, -infinity});
+    const Histogram histogram = of(std::vector<float>{std::nanf(""), endless, -endless});
     EXPECT_EQ(histogram.valid(), 0U);
     EXPECT_EQ(histogram.blank(), 3U);
     EXPECT_EQ(histogram.quantile(0.5), 0);
@@ -193,7 +193,7 @@ TEST(Histogram, AllBlankHasNoValues) {
     EXPECT_EQ(limits.hi, 1);
     Histogram other;
     EXPECT_TRUE(other.merge(histogram.filled(), histogram.blank(), histogram.min(), histogram.max()));
-    expect_equal(other, histogram);
+    expect_same_counts(other, histogram);
 }
 
 TEST(Histogram, ConstantDataGivesTheConstant) {
@@ -206,7 +206,7 @@ TEST(Histogram, ConstantDataGivesTheConstant) {
 TEST(Histogram, RefusesBinsThatContradictThemselves) {
     const std::uint32_t one = Histogram::key_of(1);
     const std::uint32_t two = Histogram::key_of(2);
-    Histogram histogram = of(std::vector<float>{7, infinity});
+    Histogram histogram = of(std::vector<float>{7, endless});
     const Histogram before = histogram;
     using Bins = std::vector<Histogram::Bin>;
     constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
@@ -223,9 +223,9 @@ TEST(Histogram, RefusesBinsThatContradictThemselves) {
     EXPECT_FALSE(histogram.merge(Bins{{one, 1}, {two, 1}}, 0, 1, 3));
     EXPECT_FALSE(histogram.merge(Bins{{one, 1}, {two, 1}}, 0, 0.5, 2));
     EXPECT_FALSE(histogram.merge(Bins{{one, 1}}, 0, nan, 1));
-    EXPECT_FALSE(histogram.merge(Bins{{one, 1}}, 0, 1, infinity));
+    EXPECT_FALSE(histogram.merge(Bins{{one, 1}}, 0, 1, endless));
     EXPECT_FALSE(histogram.merge(Bins{{one, 1}}, 0, -1e300, 1));
-    expect_equal(histogram, before);
+    expect_same_counts(histogram, before);
     EXPECT_TRUE(histogram.merge(Bins{{one, 3}, {two, 1}}, 2, 1, 2));
     EXPECT_EQ(histogram.valid(), 5U);
     EXPECT_EQ(histogram.blank(), 3U);

@@ -159,7 +159,7 @@ TEST(Summary, WhatContradictsItselfIsRefused) {
     refused("too many", [](Summary& s) { s.counts[0] = s.counts[1] = std::uint64_t{1} << 62; });
 }
 
-struct Formula : VoxelSource {
+struct FormulaWithBlanks : VoxelSource {
     base::Status read(const Box& box, std::span<float> out) override {
         std::size_t i = 0;
         for (std::int64_t z = box.lo[2]; z <= box.hi[2]; ++z) {
@@ -177,7 +177,7 @@ struct Formula : VoxelSource {
 // Whatever pieces a box is read in, what it does not own included.
 TEST(CountingSource, CountsWhatABoxOwns) {
     const Index3 n{20, 9, 14};
-    Formula formula;
+    FormulaWithBlanks formula;
     base::Workers workers(2);
     for (const Box& box :
          {Box{{0, 0, 0}, {19, 8, 13}}, Box{{0, 0, 0}, {10, 8, 6}}, Box{{10, 0, 6}, {19, 8, 13}}}) {

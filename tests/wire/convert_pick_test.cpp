@@ -11,8 +11,8 @@
 namespace shearwater::wire::test {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-const volume::Index3 n{10, 9, 8};
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+const volume::Index3 picked_n{10, 9, 8};
 
 TEST(Pick, ComesBack) {
     PickRequest asked = pick_request();
@@ -28,7 +28,8 @@ TEST(Pick, ComesBack) {
 }
 
 TEST(Pick, OutsideThePictureIsRefused) {
-    for (const view::Vec2 at : {view::Vec2{-1, 5}, {5, -0.1}, {641, 5}, {5, 481}, {nan, 5}, {5, nan}}) {
+    for (const view::Vec2 at :
+         {view::Vec2{-1, 5}, {5, -0.1}, {641, 5}, {5, 481}, {not_a_number, 5}, {5, not_a_number}}) {
         pb::Pick bad = to_wire(pick_request());
         bad.set_x(at.x);
         bad.set_y(at.y);
@@ -38,7 +39,7 @@ TEST(Pick, OutsideThePictureIsRefused) {
     bad.set_width(0);
     EXPECT_TRUE(pick_from(bad).has_error());
     bad = to_wire(pick_request());
-    bad.mutable_camera()->mutable_up()->set_y(nan);
+    bad.mutable_camera()->mutable_up()->set_y(not_a_number);
     EXPECT_TRUE(pick_from(bad).has_error());
     bad = to_wire(pick_request());
     bad.mutable_transfer_function()->clear_colour_pins();
@@ -46,11 +47,11 @@ TEST(Pick, OutsideThePictureIsRefused) {
 }
 
 TEST(PickAnswer, ComesBack) {
-    const PickAnswer nothing{.revision = 3, .hit = {}, .value = nan, .incomplete = true};
-    EXPECT_FALSE(pick_answer_from(to_wire(nothing), n).value().hit);
-    EXPECT_TRUE(pick_answer_from(to_wire(nothing), n).value().incomplete);
+    const PickAnswer nothing{.revision = 3, .hit = {}, .value = not_a_number, .incomplete = true};
+    EXPECT_FALSE(pick_answer_from(to_wire(nothing), picked_n).value().hit);
+    EXPECT_TRUE(pick_answer_from(to_wire(nothing), picked_n).value().incomplete);
     const PickAnswer some{.revision = 4, .hit = view::RayHit{{9, 0, 3.5}, 0.25}, .value = -7};
-    const PickAnswer back = pick_answer_from(to_wire(some), n).value();
+    const PickAnswer back = pick_answer_from(to_wire(some), picked_n).value();
     EXPECT_EQ(back.revision, 4U);
     EXPECT_EQ(back.hit->voxel, some.hit->voxel);
     EXPECT_EQ(back.hit->opacity, 0.25);
@@ -58,12 +59,12 @@ TEST(PickAnswer, ComesBack) {
 }
 
 TEST(PickAnswer, OutsideTheCubeIsRefused) {
-    for (const view::Vec3 voxel : {view::Vec3{9.01, 0, 0}, {0, -0.1, 0}, {0, 0, nan}}) {
+    for (const view::Vec3 voxel : {view::Vec3{9.01, 0, 0}, {0, -0.1, 0}, {0, 0, not_a_number}}) {
         const PickAnswer bad{.revision = 4, .hit = view::RayHit{voxel, 0.25}};
-        EXPECT_EQ(pick_answer_from(to_wire(bad), n).error().reason, pb::REASON_INVALID);
+        EXPECT_EQ(pick_answer_from(to_wire(bad), picked_n).error().reason, pb::REASON_INVALID);
     }
     const PickAnswer bad{.revision = 4, .hit = view::RayHit{{0, 0, 0}, 1.5}};
-    EXPECT_TRUE(pick_answer_from(to_wire(bad), n).has_error());
+    EXPECT_TRUE(pick_answer_from(to_wire(bad), picked_n).has_error());
 }
 
 TEST(RayPart, ComesBackByRisingAndByFallingSlices) {

@@ -8,7 +8,7 @@ namespace shearwater::wire::test {
 namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_finite = std::numeric_limits<double>::quiet_NaN();
 
 template <class T>
 void expect_invalid(const Parsed<T>& parsed, std::string_view what) {
@@ -76,11 +76,11 @@ TEST(ViewConversion, HostilePairsAndCrops) {
         view.crop = volume::Box{{1, 2, 3}, {40, 50, 60}};
         expect_refused(to_wire(view), view_from, what, change);
     };
-    for (const double value : {nan, inf, -inf, -1.0}) {
+    for (const double value : {not_finite, inf, -inf, -1.0}) {
         refused("separation", [&](pb::SetView& v) { v.mutable_stereo()->set_separation(value); });
         refused("convergence", [&](pb::SetView& v) { v.mutable_stereo()->set_convergence(value); });
     }
-    for (const double value : {nan, inf, -inf, 11.0}) {
+    for (const double value : {not_finite, inf, -inf, 11.0}) {
         refused("slant x", [&](pb::SetView& v) { v.mutable_camera()->set_slant_x(value); });
         refused("slant y", [&](pb::SetView& v) { v.mutable_camera()->set_slant_y(value); });
     }
@@ -101,7 +101,7 @@ TEST(ViewConversion, HostileCameras) {
         view.camera.projection = view::Projection::perspective;
         expect_refused(to_wire(view), view_from, what, change);
     };
-    for (const double value : {nan, inf, -inf}) {
+    for (const double value : {not_finite, inf, -inf}) {
         refused("eye", [&](pb::SetView& v) { v.mutable_camera()->mutable_eye()->set_y(value); });
         refused("target", [&](pb::SetView& v) { v.mutable_camera()->mutable_target()->set_x(value); });
         refused("up", [&](pb::SetView& v) { v.mutable_camera()->mutable_up()->set_z(value); });
@@ -161,7 +161,7 @@ TEST(TransferFunctionConversion, Hostile) {
     const auto refused = [](std::string_view what, auto change) {
         expect_refused(to_wire(transfer_function()), transfer_function_from, what, change);
     };
-    for (const double value : {nan, inf, -inf}) {
+    for (const double value : {not_finite, inf, -inf}) {
         refused("ramp x0", [&](auto& t) { t.mutable_opacity_pins(0)->mutable_ramp()->set_x0(value); });
         refused("ramp x1", [&](auto& t) { t.mutable_opacity_pins(0)->mutable_ramp()->set_x1(value); });
         refused("ramp a0", [&](auto& t) { t.mutable_opacity_pins(0)->mutable_ramp()->set_a0(value); });
@@ -177,10 +177,10 @@ TEST(TransferFunctionConversion, Hostile) {
         refused("colour", [&](auto& t) { t.mutable_colour_pins(1)->mutable_colour()->set_g(value); });
         refused("background", [&](auto& t) { t.mutable_background()->set_b(value); });
     }
-    for (const double value : {nan, inf, -inf, 0.0, -1.0, 1e9}) {
+    for (const double value : {not_finite, inf, -inf, 0.0, -1.0, 1e9}) {
         refused("density", [&](auto& t) { t.set_density(value); });
     }
-    for (const double value : {nan, inf, -inf, 0.2, -0.2}) {
+    for (const double value : {not_finite, inf, -inf, 0.2, -0.2}) {
         refused("hat lean", [&](auto& t) { t.mutable_opacity_pins(1)->mutable_hat()->set_lean(value); });
     }
     refused("opacity of 2", [](auto& t) { t.mutable_opacity_pins(2)->mutable_flat()->set_height(2); });
@@ -255,7 +255,7 @@ TEST(FactorisationConversion, Hostile) {
     const auto refused = [](std::string_view what, auto change) {
         expect_refused(to_wire(factorisation()), factorisation_from, what, change);
     };
-    for (const double value : {nan, inf, -inf}) {
+    for (const double value : {not_finite, inf, -inf}) {
         refused("eye", [&](pb::Factorisation& f) { f.mutable_eye()->set_x(value); });
         refused("direction", [&](pb::Factorisation& f) { f.mutable_direction()->set_z(value); });
         refused("spacing",
