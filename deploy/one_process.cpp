@@ -78,6 +78,47 @@ void add(const shear::RenderStats& part, shear::RenderStats& sum) {
 
 }  // namespace
 
+// A cube's voxels by one mapping at a time, and what is known of them.
+class Loaded {
+  public:
+    Loaded(cube::Cube& source, const view::Lattice& lattice, culling::Kind culling, base::Workers& workers)
+        : source_(source), lattice_(lattice), culling_(culling), workers_(workers) {}
+
+    // Reads them, unless it has them so already.
+    base::Status hold(const volume::Mapping& mapping, const volume::Progress& progress) {
+        if (volume_ && mapping_ == mapping) {
+            return {};
+        }
+        culler_.reset();
+        volume_.reset();
+        auto read = shear::BrickVolume::load(*source_.source, volume::whole(lattice_.n), lattice_.n, mapping,
+                                             workers_, progress);
+        if (!read) {
+            return read.error();
+        }
+        volume_.emplace(*std::move(read));
+        mapping_ = mapping;
+        classifier_ = {};
+        if (culling_ != culling::Kind::off) {
+            culler_.emplace(*volume_, lattice_.spacing);
+        }
+        return {};
+    }
+    const shear::BrickVolume& volume() const { return *volume_; }
+    shear::Classifier& classifier() { return classifier_; }
+    culling::Culler* culler() { return culler_ ? &*culler_ : nullptr; }
+
+  private:
+    cube::Cube& source_;
+    const view::Lattice lattice_;
+    const culling::Kind culling_;
+    base::Workers& workers_;
+    std::optional<shear::BrickVolume> volume_;
+    volume::Mapping mapping_;
+    shear::Classifier classifier_;
+    std::optional<culling::Culler> culler_;
+};
+
 base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const ViewOptions& view,
                                       const Script& script, int threads, const volume::Progress& progress) {
     base::Workers workers(threads);
@@ -109,28 +150,30 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     }
     double preprocess = stopwatch.lap();
     const auto second_half = [&](double fraction) { loading(0.5 + fraction / 2); };
-    const auto volume = shear::BrickVolume::load(*opened->source, volume::whole(lattice.n), lattice.n,
-                                                 values->mapping, workers, second_half);
-    if (!volume) {
-        return volume.error();
+    const culling::Settings culling = view.drawing.culling_settings();
+    Loaded loaded(*opened, lattice, culling.kind, workers);
+    const auto hold = [&](const volume::Progress& told) {
+        return loaded.hold(shot->scaling ? volume::Mapping::of(*shot->scaling, cube.bits) : values->mapping,
+                           told);
+    };
+    if (const auto held = hold(second_half); !held) {
+        return held.error();
     }
     load += stopwatch.lap();
 
     Picture picture;
     std::vector<Seconds> times;
-    shear::Classifier classifier;
-    const culling::Settings culling = view.drawing.culling_settings();
-    std::optional<culling::Culler> culler;
-    if (culling.kind != culling::Kind::off) {
-        culler.emplace(*volume, lattice.spacing);
-    }
     for (int i = 0; i < script.pictures; ++i) {
         if (i > 0) {
             shot = script.shot(i, known);
             if (!shot) {
                 return shot.error();
             }
+            if (const auto held = hold({}); !held) {
+                return held.error();
+            }
         }
+        culling::Culler* const culler = loaded.culler();
         const view::TransferFunction& tf = shot->tf;
         stopwatch.lap();
         const std::vector<view::Camera> eyes = eyes_of(shot->camera, view.stereo);
@@ -140,7 +183,7 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
             preprocess += stopwatch.lap();
         }
         const auto& classification =
-            classifier.classify(*volume, tf, factorisations.front().classify, workers);
+            loaded.classifier().classify(loaded.volume(), tf, factorisations.front().classify, workers);
         Seconds spent{.load = load, .preprocess = preprocess};
         shear::RenderStats stats;
         std::vector<image::Image<image::Rgba8>> pictures;
@@ -149,8 +192,8 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
             const auto visible =
                 culler ? std::optional(culler->visible(factorisation, tf, culling, workers)) : std::nullopt;
             shear::RenderStats of_eye;
-            const auto windows = shear::render(*volume, classification, factorisation, workers, &of_eye, {},
-                                               visible ? &*visible : nullptr);
+            const auto windows = shear::render(loaded.volume(), classification, factorisation, workers,
+                                               &of_eye, {}, visible ? &*visible : nullptr);
             add(of_eye, stats);
             spent.render += stopwatch.lap();
             pictures.push_back(image::warp(factorisation, windows, eyes[eye], *size, tf.background, workers));

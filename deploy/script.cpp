@@ -15,7 +15,7 @@ Script script_of(const ViewOptions& view, const view::AnchoredFunction& function
         if (!tf) {
             return tf.error();
         }
-        return flight::Shot{*camera, *std::move(tf)};
+        return flight::Shot{*camera, *std::move(tf), view.scaling};
     };
     return {.pictures = pictures, .in_flight = in_flight, .unit = function.unit, .shot = shot, .keep = {}};
 }

@@ -115,26 +115,43 @@ void Still::on_state(const pb::TreeState& state) {
     progress_ = renderers > 0 ? sum / renderers : 0;
 }
 
+bool Still::prepare_next() {
+    if (!next_) {
+        auto shot = script_.shot(to_ask_.front(), *known_);
+        if (!shot) {
+            failed_ = shot.error();
+            return false;
+        }
+        next_ = *std::move(shot);
+    }
+    return true;
+}
+
 void Still::ask(wire::Time now, std::vector<wire::NetEffect>& effects) {
-    const int picture = to_ask_.front();
-    to_ask_.pop_front();
-    auto shot = script_.shot(picture, *known_);
     const auto crop = options_.crop_of(known_->lattice);
-    if (!shot || !crop) {
-        failed_ = shot ? crop.error() : shot.error();
+    if (!crop) {
+        failed_ = crop.error();
+    }
+    if (!crop || !prepare_next()) {
         return;
     }
-    view_.camera = shot->camera;
-    view_.tf = std::move(shot->tf);
+    const int picture = to_ask_.front();
+    to_ask_.pop_front();
+    view_.camera = next_->camera;
+    view_.tf = std::move(next_->tf);
     view_.crop = *crop;
+    view_.scaling = next_->scaling;
+    next_.reset();
     asked_.push_back({++view_.revision, picture, now});
     effects.emplace_back(wire::Send{server_link, wire::message(wire::to_wire(view_))});
 }
 
-// One at a time, for of two that wait to be sent the newer takes the other's place.
+// One at a time, for of two that wait to be sent the newer takes the other's place; and none by other limits,
+// for which the server gives up all that it draws.
 void Still::ask_ahead(wire::Time now, std::vector<wire::NetEffect>& effects) {
     const auto in_flight = static_cast<int>(asked_.size());
-    if (in_flight < script_.in_flight && !to_ask_.empty()) {
+    if (in_flight < script_.in_flight && !to_ask_.empty() && prepare_next() &&
+        (in_flight == 0 || next_->scaling == view_.scaling)) {
         ask(now, effects);
     }
 }

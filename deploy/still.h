@@ -37,6 +37,7 @@ class Still {
     void on_cube(const wire::pb::CubeDescription& cube, wire::Time now,
                  std::vector<wire::NetEffect>& effects);
     void on_frame(const wire::Message& message, wire::Time now, std::vector<wire::NetEffect>& effects);
+    bool prepare_next();
     void ask(wire::Time now, std::vector<wire::NetEffect>& effects);
     void ask_ahead(wire::Time now, std::vector<wire::NetEffect>& effects);
     void fail(base::Code code, std::string detail);
@@ -44,10 +45,11 @@ class Still {
     wire::Route server_;
     ViewOptions options_;
     Script script_;
-    wire::View view_;                  // the newest asked for
-    std::deque<int> to_ask_;           // pictures
-    std::optional<KnownCube> known_;   // once there is what is needed to ask
-    std::optional<wire::Time> ready_;  // since when all is loaded
+    wire::View view_;                   // the newest asked for
+    std::deque<int> to_ask_;            // pictures
+    std::optional<flight::Shot> next_;  // the first of them
+    std::optional<KnownCube> known_;    // once there is what is needed to ask
+    std::optional<wire::Time> ready_;   // since when all is loaded
     std::vector<Seconds> times_;
     Picture picture_;
     wire::Time started_{};

@@ -86,6 +86,7 @@ base::Status ViewOptions::open_session() {
             crop.insert(crop.end(), {scene->crop->lo[axis], scene->crop->hi[axis]});
         }
     }
+    scaling = scene->scaling;
     if (scene->stereo && !stereo.mode()) {
         stereo.shown = image::stereo_mode_names[static_cast<std::size_t>(scene->stereo->mode)];
         stereo.eyes = scene->stereo->eyes;

@@ -23,8 +23,9 @@ struct ViewOptions {
     std::string quality = "normal";
     options::DrawingOptions drawing;
     StereoOptions stereo;
-    std::vector<std::int64_t> crop;  // first and last voxel along each axis; empty: the whole cube
-    std::string session;             // a file that says the rest; size and quality may be given besides
+    std::vector<std::int64_t> crop;          // first and last voxel along each axis; empty: the whole cube
+    std::optional<volume::Scaling> scaling;  // of the cube's values, by the session; else as it is loaded
+    std::string session;  // a file that says the rest; size and quality may be given besides
 
     // All of them; or those that do not say from where, nor by which transfer function.
     void add_to(CLI::App& app);

@@ -29,13 +29,14 @@ std::string prefix_for(const Cube& cube) {
 }  // namespace
 
 Remembered remembered(const Wish& wish) {
-    return {wish.viewpoint, wish.tf, wish.crop};
+    return {wish.viewpoint, wish.tf, wish.crop, wish.scaling};
 }
 
 void restore(const Remembered& state, Wish& wish) {
     wish.viewpoint = state.viewpoint;
     wish.tf = state.tf;
     wish.crop = state.crop;
+    wish.scaling = state.scaling;
 }
 
 scene::Scene scene_of(const Wish& wish, const Effort& effort, const std::string& cube) {
@@ -48,7 +49,9 @@ scene::Scene scene_of(const Wish& wish, const Effort& effort, const std::string&
             .culling = wish.culling,
             .quality = effort.fixed,
             .target_rate = effort.target_rate,
-            .crop = wish.crop};
+            .crop = wish.crop,
+            .stereo = {},
+            .scaling = wish.scaling};
 }
 
 void apply(const scene::Scene& scene, Wish& wish, Effort& effort) {
@@ -58,6 +61,7 @@ void apply(const scene::Scene& scene, Wish& wish, Effort& effort) {
     wish.classify = scene.classify;
     wish.culling = scene.culling;
     wish.crop = scene.crop;
+    wish.scaling = scene.scaling;
     effort.fixed = scene.quality;
     effort.target_rate = scene.target_rate;
 }

@@ -18,6 +18,7 @@ struct Remembered {
     Viewpoint viewpoint;
     view::TransferFunction tf;
     Crop crop;
+    std::optional<volume::Scaling> scaling;
     bool operator==(const Remembered&) const = default;
 };
 Remembered remembered(const Wish& wish);

@@ -334,7 +334,8 @@ void Session::send_view(wire::Time now) {
                           .classify = wish_->classify,
                           .culling = wish_->culling,
                           .stereo = fits ? wish_->stereo : std::nullopt,
-                          .crop = crop_of_cube()};
+                          .crop = crop_of_cube(),
+                          .scaling = wish_->scaling};
     effects_.push_back(wire::Send{link_, wire::message(wire::to_wire(view))});
     sent_.push_back({revision_, *wish_, view.size, view.stereo ? 2 : 1, view.quality, view.deflate, now,
                      tree_.nodes.empty() || tree_.ready});

@@ -38,6 +38,7 @@ struct Wish {
     culling::Settings culling;
     std::optional<view::StereoSettings> stereo;  // a pair of pictures of that size
     std::optional<volume::Box> crop;             // of the cube; one of another cube's counts for nothing
+    std::optional<volume::Scaling> scaling;  // of the cube's values, for all who look at it; else as it is
     bool operator==(const Wish&) const = default;
 };
 

@@ -35,18 +35,19 @@ std::optional<std::size_t> Timeline::key_at(double time) const {
                                      : std::optional(static_cast<std::size_t>(found - path_.keys.begin()));
 }
 
-void Timeline::keep(const view::Viewpoint& viewpoint, const view::TransferFunction& tf) {
+void Timeline::keep(const flight::Seen& seen) {
     pause();
     at_ = empty() ? 0 : at_;
     if (const auto there = key_at(at_)) {
         flight::Key& key = path_.keys[*there];
-        key.viewpoint = viewpoint;
-        key.tf = tf;
+        key.viewpoint = seen.viewpoint;
+        key.tf = seen.tf;
+        key.scaling = seen.scaling;
         selected_ = there;
     } else if (path_.keys.size() < flight::Path::max_keys) {
         const auto behind = std::ranges::upper_bound(path_.keys, at_, {}, &flight::Key::time);
         const std::size_t cube = behind == path_.keys.begin() ? 0 : std::prev(behind)->cube;
-        const auto kept = path_.keys.insert(behind, {at_, cube, viewpoint, tf});
+        const auto kept = path_.keys.insert(behind, {at_, cube, seen.viewpoint, seen.tf, seen.scaling});
         selected_ = static_cast<std::size_t>(kept - path_.keys.begin());
     }
 }
@@ -103,7 +104,12 @@ std::optional<flight::Seen> Timeline::advance(wire::Time now, const view::Lattic
     if (at_ >= duration()) {
         pause();
     }
-    return seen(lattice);
+    auto now_seen = seen(lattice);
+    if (now_seen && playing()) {
+        const auto behind = std::ranges::upper_bound(path_.keys, at_, {}, &flight::Key::time);
+        now_seen->scaling = std::prev(behind)->scaling;
+    }
+    return now_seen;
 }
 
 std::optional<flight::Seen> Timeline::seen(const view::Lattice& lattice) const {

@@ -25,7 +25,7 @@ class Timeline {
     void seek(double time);
 
     // A key of this view where the needle is, in the place of one that is there. The first goes to 0.
-    void keep(const view::Viewpoint& viewpoint, const view::TransferFunction& tf);
+    void keep(const flight::Seen& seen);
     std::optional<std::size_t> selected() const { return selected_; }
     void select(std::size_t key);  // the needle goes there
     // The selected key: to another time, a frame from its neighbours at least (the first stays); away, and
@@ -37,7 +37,8 @@ class Timeline {
     void play(wire::Time now);
     void pause() { played_from_.reset(); }
     bool playing() const { return played_from_.has_value(); }
-    // While it plays: moves the needle, and what is to be seen there. It ends at the last key.
+    // While it plays: moves the needle, and what is to be seen there. It ends at the last key. Limits go from
+    // key to key in steps meanwhile, for with every other voxels are read anew.
     std::optional<flight::Seen> advance(wire::Time now, const view::Lattice& lattice);
     // At the needle.
     std::optional<flight::Seen> seen(const view::Lattice& lattice) const;

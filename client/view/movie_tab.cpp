@@ -16,6 +16,7 @@ namespace {
 void show(Desk& desk, const flight::Seen& seen) {
     desk.steer() = seen.viewpoint;
     desk.wish.tf = seen.tf;
+    desk.wish.scaling = seen.scaling;
 }
 
 bool tool(Desk& desk, const char* label, bool enabled, const char* tip) {
@@ -221,7 +222,7 @@ void legend(const Desk& desk) {
 void movie_tools(Desk& desk) {
     model::Timeline& timeline = desk.timeline;
     if (tool(desk, "Key", desk.has_cube(), "a key frame of the view, where the needle is")) {
-        timeline.keep(desk.wish.viewpoint, desk.wish.tf);
+        timeline.keep({desk.wish.viewpoint, desk.wish.tf, desk.wish.scaling});
     }
     const bool plays = timeline.playing();
     if (tool(desk, plays ? "Pause" : "Play", timeline.path().keys.size() > 1 && desk.has_cube(),

@@ -14,6 +14,7 @@ void panel(Desk& desk, ImVec2 from, ImVec2 size) {
                      ImGuiWindowFlags_NoNavInputs | ImGuiWindowFlags_NoBringToFrontOnFocus);
     link_section(desk);
     cube_section(desk);
+    limits_section(desk);
     camera_section(desk);
     session_section(desk);
     speed_section(desk);

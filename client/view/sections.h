@@ -8,6 +8,8 @@ namespace shearwater::ui {
 // The name, the help, and how the link to the server stands.
 void link_section(Desk& desk);
 void cube_section(Desk& desk);
+// Between which values it is shown, and how they are stretched.
+void limits_section(Desk& desk);
 void camera_section(Desk& desk);
 // Undo and redo, and the view as a file.
 void session_section(Desk& desk);

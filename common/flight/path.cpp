@@ -79,6 +79,15 @@ double curve(const std::vector<Key>& keys, const Place& place, const Value& valu
     return a * (1 + 2 * t) * u * u + from * t * u * u + b * t * t * (3 - 2 * t) - to * t * t * u;
 }
 
+// Exactly those of a key at its time, and where one of the two says nothing those before.
+std::optional<volume::Scaling> scaling_between(const Key& a, const Key& b, double share) {
+    if (!a.scaling || !b.scaling || a.cube != b.cube || a.scaling->stretch != b.scaling->stretch) {
+        return a.scaling;
+    }
+    return volume::Scaling{std::lerp(a.scaling->lo, b.scaling->lo, share),
+                           std::lerp(a.scaling->hi, b.scaling->hi, share), a.scaling->stretch};
+}
+
 base::Status refused(std::size_t key, const std::string& what) {
     return base::error(base::Code::invalid_argument, fmt::format("key {}", key + 1), what);
 }
@@ -96,6 +105,9 @@ base::Status validate_key(const Path& path, std::size_t i) {
     }
     if (const auto valid = view::validate(key.tf); !valid) {
         return refused(i, valid.error().detail);
+    }
+    if (key.scaling && !key.scaling->valid()) {
+        return refused(i, "its limits have to be finite, the lower first");
     }
     return {};
 }
@@ -140,7 +152,7 @@ Seen seen_at(const Path& path, double time, const view::Lattice& lattice) {
     const Place place = place_of(path, time);
     const Key& last = path.keys[place.from];
     if (place.share <= 0) {
-        return {last.viewpoint, last.tf};
+        return {last.viewpoint, last.tf, last.scaling};
     }
     const auto follow = [&](const Value& value) { return curve(path.keys, place, value); };
     const auto of_orbit = [&](double view::Orbit::*angle) {
@@ -159,12 +171,14 @@ Seen seen_at(const Path& path, double time, const view::Lattice& lattice) {
                                     .roll = of_orbit(&view::Orbit::roll)},
                           .projection = last.viewpoint.projection,
                           .fov = follow([](const Key& key) { return key.viewpoint.fov; })},
-            .tf = blend(last.tf, path.keys[place.from + 1].tf, place.share)};
+            .tf = blend(last.tf, path.keys[place.from + 1].tf, place.share),
+            .scaling = scaling_between(last, path.keys[place.from + 1], place.share)};
 }
 
 Shot shot_at(const Path& path, double time, const view::Lattice& lattice) {
     Seen seen = seen_at(path, time, lattice);
-    return {.camera = view::camera(seen.viewpoint, lattice), .tf = std::move(seen.tf)};
+    return {
+        .camera = view::camera(seen.viewpoint, lattice), .tf = std::move(seen.tf), .scaling = seen.scaling};
 }
 
 }  // namespace shearwater::flight

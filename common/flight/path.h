@@ -7,10 +7,12 @@
 //
 // Between keys the camera's numbers follow monotone cubics through all keys (Fritsch and Carlson 1980):
 // smooth, never beyond the keys' own values, and at rest where two keys are alike. The distance does so by
-// its logarithm. The transfer function goes from key to key by blend.h. The projection and the cube are those
-// of the last key before.
+// its logarithm. The transfer function goes from key to key by blend.h, and the limits of values evenly where
+// both keys have some and stretch alike. The projection, the cube and else the limits are those of the last
+// key before.
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,7 @@ struct Key {
     std::size_t cube = 0;       // among the path's
     view::Viewpoint viewpoint;  // azimuth and roll as far as they are to turn: beyond 360 for more than one
     view::TransferFunction tf = view::default_transfer_function();
+    std::optional<volume::Scaling> scaling = {};  // of the cube's values; else as whoever loads it has it
     bool operator==(const Key&) const = default;
 };
 
@@ -50,6 +53,7 @@ std::size_t cube_at(const Path& path, double time);
 struct Seen {
     view::Viewpoint viewpoint;
     view::TransferFunction tf;
+    std::optional<volume::Scaling> scaling;
 };
 Seen seen_at(const Path& path, double time, const view::Lattice& lattice);
 
@@ -57,6 +61,7 @@ Seen seen_at(const Path& path, double time, const view::Lattice& lattice);
 struct Shot {
     view::Camera camera;
     view::TransferFunction tf;
+    std::optional<volume::Scaling> scaling = {};  // of its values; else as it was loaded
 };
 Shot shot_at(const Path& path, double time, const view::Lattice& lattice);
 

@@ -174,7 +174,7 @@ class Reader {
     void read_key(const toml::table& table, Key& key) {
         only_keys(table, "a key",
                   {"time", "cube", "azimuth", "elevation", "roll", "distance", "target", "projection", "fov",
-                   "tf"});
+                   "limits", "stretch", "tf"});
         if (!table.contains("time")) {
             fail(table, "a key needs its time");
         }
@@ -185,8 +185,12 @@ class Reader {
             if (from_one == 0) {
                 fail(*node, "cubes are numbered from 1");
             }
+            if (from_one - 1 != key.cube) {
+                key.scaling.reset();
+            }
             key.cube = from_one - 1;
         }
+        read_scaling(table, key);
         view::Viewpoint& viewpoint = key.viewpoint;
         number(table, "azimuth", viewpoint.orbit.azimuth);
         number(table, "elevation", viewpoint.orbit.elevation);
@@ -204,6 +208,24 @@ class Reader {
         }
         if (const toml::node* node = table.get("tf")) {
             read_tf(*node, key.tf);
+        }
+    }
+
+    void read_scaling(const toml::table& table, Key& key) {
+        if (const toml::node* node = table.get("limits")) {
+            const auto limits = numbers(*node, "limits", 2);
+            key.scaling = {limits[0], limits[1], key.scaling.value_or(volume::Scaling{}).stretch};
+        }
+        if (const toml::node* node = table.get("stretch")) {
+            if (!key.scaling) {
+                return fail(*node, "a stretch needs limits");
+            }
+            const std::string name = word(*node, "stretch");
+            const auto stretch = volume::stretch_named(name);
+            if (!stretch) {
+                return fail(*node, fmt::format("stretch cannot be \"{}\"", base::printable(name, 40)));
+            }
+            key.scaling->stretch = *stretch;
         }
     }
 
@@ -249,16 +271,21 @@ toml::table table_of(const Key& key) {
     const view::Viewpoint& viewpoint = key.viewpoint;
     const view::Orbit& orbit = viewpoint.orbit;
     const bool parallel = viewpoint.projection == view::Projection::parallel;
-    return toml::table{{"time", key.time},
-                       {"cube", static_cast<std::int64_t>(key.cube + 1)},
-                       {"azimuth", orbit.azimuth},
-                       {"elevation", orbit.elevation},
-                       {"roll", orbit.roll},
-                       {"distance", orbit.distance},
-                       {"target", toml::array{orbit.target.x, orbit.target.y, orbit.target.z}},
-                       {"projection", parallel ? "parallel" : "perspective"},
-                       {"fov", viewpoint.fov},
-                       {"tf", toml::parse(view::to_toml({.tf = key.tf}))}};
+    toml::table table{{"time", key.time},
+                      {"cube", static_cast<std::int64_t>(key.cube + 1)},
+                      {"azimuth", orbit.azimuth},
+                      {"elevation", orbit.elevation},
+                      {"roll", orbit.roll},
+                      {"distance", orbit.distance},
+                      {"target", toml::array{orbit.target.x, orbit.target.y, orbit.target.z}},
+                      {"projection", parallel ? "parallel" : "perspective"},
+                      {"fov", viewpoint.fov},
+                      {"tf", toml::parse(view::to_toml({.tf = key.tf}))}};
+    if (key.scaling) {
+        table.insert("limits", toml::array{key.scaling->lo, key.scaling->hi});
+        table.insert("stretch", std::string(volume::name(key.scaling->stretch)));
+    }
+    return table;
 }
 
 }  // namespace

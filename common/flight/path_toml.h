@@ -17,7 +17,9 @@
 //   target = [0.0, 0.0, 0.0]     # world
 //   projection = "perspective"   # or "parallel"
 //   fov = 30.0
-//   tf = "shell.toml"            # beside this file; or as a table of its own, [key.tf]
+//   limits = [0.0, 4.5]          # of values, in the cube's unit; none, and after a cut: as the cube is
+//   loaded stretch = "linear"           # between them tf = "shell.toml"            # beside this file; or as
+//   a table of its own, [key.tf]
 
 #include <string>
 #include <string_view>

@@ -31,6 +31,10 @@ base::Status validate(const Scene& scene) {
         return base::error(base::Code::invalid_argument, "set the crop box",
                            "it ends behind where it begins, from voxel 0 on");
     }
+    if (scene.scaling && !scene.scaling->valid()) {
+        return base::error(base::Code::invalid_argument, "set the limits",
+                           "they are finite, the lower first");
+    }
     return {};
 }
 

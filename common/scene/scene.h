@@ -11,6 +11,7 @@
 #include "common/view/stereo.h"
 #include "common/view/transfer_function.h"
 #include "common/view/viewpoint.h"
+#include "common/volume/mapping.h"
 
 namespace shearwater::scene {
 
@@ -33,6 +34,7 @@ struct Scene {
     double target_rate = 20;               // frames a second
     std::optional<volume::Box> crop;       // of the cube that it was kept from
     std::optional<Pair> stereo;
+    std::optional<volume::Scaling> scaling;  // of the cube's values; else as whoever loads it has it
 
     bool operator==(const Scene&) const = default;
 

@@ -162,6 +162,13 @@ void read_crop(Reader& reader, const toml::table& table, Scene& scene) {
     }
 }
 
+void read_values(Reader& reader, const toml::table& table, Scene& scene) {
+    reader.only_keys(table, "[values]", {"limits", "stretch"});
+    const auto limits = reader.numbers<2>(table, "limits");
+    const auto stretch = reader.one_of(table, "stretch", volume::stretch_names);
+    scene.scaling = {limits[0], limits[1], static_cast<volume::Stretch>(stretch)};
+}
+
 void read_stereo(Reader& reader, const toml::table& table, Scene& scene) {
     reader.only_keys(table, "[stereo]", {"mode", "separation", "convergence", "swap"});
     Pair& pair = scene.stereo.emplace();
@@ -210,11 +217,15 @@ base::Result<Scene> scene_from_toml(std::string_view text, std::string_view sour
         return refuse(fmt::format("it is of version {}, and {} is known", *written, version));
     }
     Reader reader;
-    reader.only_keys(root, "the session",
-                     {"version", "cube", "drawing", "crop", "stereo", "transfer_function", "camera"});
+    reader.only_keys(
+        root, "the session",
+        {"version", "cube", "drawing", "values", "crop", "stereo", "transfer_function", "camera"});
     Scene scene;
     scene.cube = reader.text(root, "cube");
     read_drawing(reader, reader.section(root, "drawing"), scene);
+    if (root.contains("values")) {
+        read_values(reader, reader.section(root, "values"), scene);
+    }
     if (root.contains("crop")) {
         read_crop(reader, reader.section(root, "crop"), scene);
     }
@@ -254,6 +265,11 @@ std::string to_toml(const Scene& scene) {
         classifications[static_cast<std::size_t>(scene.classify)], levels[level],
         culling::kind_names[static_cast<std::size_t>(scene.culling.kind)],
         number_text(scene.culling.threshold));
+    if (scene.scaling) {
+        out +=
+            fmt::format("\n[values]\nlimits = [{}, {}]\nstretch = \"{}\"\n", number_text(scene.scaling->lo),
+                        number_text(scene.scaling->hi), volume::name(scene.scaling->stretch));
+    }
     if (scene.crop) {
         const auto& [lo, hi] = *scene.crop;
         out += fmt::format("\n[crop]\nfirst = [{}]\nlast = [{}]\n", fmt::join(lo, ", "), fmt::join(hi, ", "));

@@ -1,39 +1,18 @@
 #include "common/volume/mapping.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <utility>
 
 namespace shearwater::volume {
 
-namespace {
-
-constexpr std::array<std::pair<Stretch, std::string_view>, 4> names = {{
-    {Stretch::linear, "linear"},
-    {Stretch::sqrt, "sqrt"},
-    {Stretch::log, "log"},
-    {Stretch::asinh, "asinh"},
-}};
-
-}  // namespace
-
 std::string_view name(Stretch stretch) {
-    for (const auto& [value, text] : names) {
-        if (value == stretch) {
-            return text;
-        }
-    }
-    return "?";
+    return stretch_names[static_cast<std::size_t>(stretch)];
 }
 
 std::optional<Stretch> stretch_named(std::string_view name) {
-    for (const auto& [value, text] : names) {
-        if (text == name) {
-            return value;
-        }
-    }
-    return std::nullopt;
+    const auto found = std::ranges::find(stretch_names, name);
+    return found == stretch_names.end() ? std::nullopt
+                                        : std::optional(static_cast<Stretch>(found - stretch_names.begin()));
 }
 
 double apply(Stretch stretch, double t) {
@@ -62,6 +41,10 @@ double invert(Stretch stretch, double s) {
             return std::sinh(s * std::asinh(10.0)) / 10;
     }
     return s;
+}
+
+bool Scaling::valid() const {
+    return std::isfinite(lo) && std::isfinite(hi) && std::isfinite(hi - lo) && lo <= hi;
 }
 
 double Mapping::stretched(double value) const {

@@ -1,6 +1,7 @@
 #pragma once
 // From physical values to the codes that bricks hold (design: "Value").
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -9,6 +10,8 @@ namespace shearwater::volume {
 
 enum class Stretch { linear, sqrt, log, asinh };
 
+// By number.
+constexpr std::array<std::string_view, 4> stretch_names{"linear", "sqrt", "log", "asinh"};
 std::string_view name(Stretch stretch);
 std::optional<Stretch> stretch_named(std::string_view name);
 
@@ -17,10 +20,25 @@ double apply(Stretch stretch, double t);
 // The t in [0, 1] with apply(stretch, t) == s.
 double invert(Stretch stretch, double s);
 
+// Where the values that are told apart begin and end, and how they are spread between.
+struct Scaling {
+    double lo = 0;
+    double hi = 1;
+    Stretch stretch = Stretch::linear;
+
+    bool operator==(const Scaling&) const = default;
+    // lo <= hi, both finite, and their distance too.
+    bool valid() const;
+};
+
 // t = clamp((v - lo) / (hi - lo), 0, 1), s = stretch(t), code = 1 + round(s * (levels - 1)).
 // Code 0 is blank. lo < hi, both finite; lo == hi stands for a constant cube: s is 0 at or below it
 // and 1 above.
 struct Mapping {
+    static Mapping of(const Scaling& scaling, int bits) {
+        return {.lo = scaling.lo, .hi = scaling.hi, .stretch = scaling.stretch, .bits = bits};
+    }
+
     double lo = 0;
     double hi = 1;
     Stretch stretch = Stretch::linear;
@@ -28,6 +46,7 @@ struct Mapping {
 
     bool operator==(const Mapping&) const = default;
 
+    Scaling scaling() const { return {lo, hi, stretch}; }
     // The number of codes that stand for a value: 255 or 65535.
     int levels() const { return (1 << bits) - 1; }
 

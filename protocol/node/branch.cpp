@@ -310,6 +310,13 @@ std::optional<volume::Histogram> Branch::histogram(Counted counted) const {
     return sum;
 }
 
+void Branch::forget_sketches() {
+    for (Child& child : children_) {
+        of(Counted::sketches, child.histograms).reset();
+    }
+    of(Counted::sketches, histogram_news_) = false;
+}
+
 bool Branch::take_histogram_news(Counted counted) {
     return std::exchange(of(counted, histogram_news_), false);
 }

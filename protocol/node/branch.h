@@ -73,6 +73,9 @@ class Branch {
     // Whether the sum changed since this was last asked.
     bool take_histogram_news(Counted counted);
 
+    // Sketches are made anew: those counted so far are of no account.
+    void forget_sketches();
+
     // Passes a message down to every child, or voxels to the child that asked for them.
     void tell_children(const wire::Message& message, std::vector<wire::NetEffect>& effects) const;
     // What functions are wanted: of every child, and of whoever takes its place.

@@ -25,6 +25,7 @@ pb::Box to_wire(const volume::Box& box);
 pb::Rect to_wire(const view::Rect& rect);
 pb::Lattice to_wire(const view::Lattice& lattice);
 pb::Mapping to_wire(const volume::Mapping& mapping);
+pb::Scaling to_wire(const volume::Scaling& scaling);
 pb::Camera to_wire(const view::Camera& camera);
 pb::TransferFunction to_wire(const view::TransferFunction& tf);
 pb::Factorisation to_wire(const view::Factorisation& factorisation);
@@ -35,6 +36,7 @@ pb::Quality to_wire(view::Quality quality);
 Parsed<volume::Box> box_from(const pb::Box& box);  // lo <= hi, indices within 2^40
 Parsed<view::Lattice> lattice_from(const pb::Lattice& lattice);
 Parsed<volume::Mapping> mapping_from(const pb::Mapping& mapping);
+Parsed<volume::Scaling> scaling_from(const pb::Scaling& scaling);
 Parsed<view::TransferFunction> transfer_function_from(const pb::TransferFunction& tf);
 Parsed<view::Factorisation> factorisation_from(const pb::Factorisation& factorisation);
 Parsed<volume::Histogram> histogram_from(const pb::HistogramReport& report);
@@ -54,6 +56,7 @@ struct View {
     culling::Settings culling;
     std::optional<view::StereoSettings> stereo;  // a pair of pictures, for two eyes
     std::optional<volume::Box> crop;             // of whatever cube there is: only its order is checked
+    std::optional<volume::Scaling> scaling;      // of the cube's values; else the server's own
 };
 // Of the one picture, or of the left eye's and the right one's.
 std::vector<view::Camera> cameras_of(const View& view);

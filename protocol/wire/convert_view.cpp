@@ -110,6 +110,17 @@ Parsed<std::optional<volume::Box>> crop_from(const pb::SetView& view) {
     return std::optional(*crop);
 }
 
+Parsed<std::optional<volume::Scaling>> optional_scaling_from(const pb::SetView& view) {
+    if (!view.has_scaling()) {
+        return std::optional<volume::Scaling>();
+    }
+    const auto scaling = scaling_from(view.scaling());
+    if (!scaling) {
+        return invalid("view.scaling: " + scaling.error().text);
+    }
+    return std::optional(*scaling);
+}
+
 }  // namespace
 
 pb::Projection to_wire(view::Projection projection) {
@@ -243,6 +254,9 @@ pb::SetView to_wire(const View& view) {
     if (view.crop) {
         *to.mutable_crop() = to_wire(*view.crop);
     }
+    if (view.scaling) {
+        *to.mutable_scaling() = to_wire(*view.scaling);
+    }
     return to;
 }
 
@@ -287,6 +301,10 @@ Parsed<View> view_from(const pb::SetView& view) {
     if (!crop) {
         return crop.error();
     }
+    const auto scaling = optional_scaling_from(view);
+    if (!scaling) {
+        return scaling.error();
+    }
     return View{.revision = view.revision(),
                 .camera = *camera,
                 .size = size,
@@ -298,7 +316,8 @@ Parsed<View> view_from(const pb::SetView& view) {
                 .classify = *classify,
                 .culling = culling,
                 .stereo = *stereo,
-                .crop = *crop};
+                .crop = *crop,
+                .scaling = *scaling};
 }
 
 }  // namespace shearwater::wire

@@ -9,6 +9,35 @@
 namespace shearwater::wire {
 namespace {
 
+pb::Stretch wire_stretch(volume::Stretch stretch) {
+    switch (stretch) {
+        case volume::Stretch::linear:
+            return pb::STRETCH_LINEAR;
+        case volume::Stretch::sqrt:
+            return pb::STRETCH_SQRT;
+        case volume::Stretch::log:
+            return pb::STRETCH_LOG;
+        case volume::Stretch::asinh:
+            break;
+    }
+    return pb::STRETCH_ASINH;
+}
+
+std::optional<volume::Stretch> stretch_from(pb::Stretch stretch) {
+    switch (stretch) {
+        case pb::STRETCH_LINEAR:
+            return volume::Stretch::linear;
+        case pb::STRETCH_SQRT:
+            return volume::Stretch::sqrt;
+        case pb::STRETCH_LOG:
+            return volume::Stretch::log;
+        case pb::STRETCH_ASINH:
+            return volume::Stretch::asinh;
+        default:
+            return std::nullopt;
+    }
+}
+
 constexpr std::int64_t max_index = std::int64_t{1} << 40;
 // Spacings whose squares and cubes, times any cube's size, are still numbers.
 constexpr double min_spacing = 1e-60;
@@ -100,55 +129,48 @@ Parsed<view::Lattice> lattice_from(const pb::Lattice& lattice) {
     return from;
 }
 
+pb::Scaling to_wire(const volume::Scaling& scaling) {
+    pb::Scaling to;
+    to.set_lo(scaling.lo);
+    to.set_hi(scaling.hi);
+    to.set_stretch(wire_stretch(scaling.stretch));
+    return to;
+}
+
+Parsed<volume::Scaling> scaling_from(const pb::Scaling& scaling) {
+    const auto stretch = stretch_from(scaling.stretch());
+    if (!stretch) {
+        return invalid("stretch: unknown");
+    }
+    const volume::Scaling from{.lo = scaling.lo(), .hi = scaling.hi(), .stretch = *stretch};
+    if (!from.valid()) {
+        return invalid("limits: finite ones with lo <= hi are wanted");
+    }
+    return from;
+}
+
 pb::Mapping to_wire(const volume::Mapping& mapping) {
     pb::Mapping to;
     to.set_lo(mapping.lo);
     to.set_hi(mapping.hi);
-    switch (mapping.stretch) {
-        case volume::Stretch::linear:
-            to.set_stretch(pb::STRETCH_LINEAR);
-            break;
-        case volume::Stretch::sqrt:
-            to.set_stretch(pb::STRETCH_SQRT);
-            break;
-        case volume::Stretch::log:
-            to.set_stretch(pb::STRETCH_LOG);
-            break;
-        case volume::Stretch::asinh:
-            to.set_stretch(pb::STRETCH_ASINH);
-            break;
-    }
+    to.set_stretch(wire_stretch(mapping.stretch));
     to.set_bits(static_cast<std::uint32_t>(mapping.bits));
     return to;
 }
 
 Parsed<volume::Mapping> mapping_from(const pb::Mapping& mapping) {
-    volume::Mapping from{.lo = mapping.lo(), .hi = mapping.hi()};
-    if (!std::isfinite(from.lo) || !std::isfinite(from.hi) || !std::isfinite(from.hi - from.lo) ||
-        from.lo > from.hi) {
-        return invalid("mapping: finite limits with lo <= hi are wanted");
-    }
-    switch (mapping.stretch()) {
-        case pb::STRETCH_LINEAR:
-            from.stretch = volume::Stretch::linear;
-            break;
-        case pb::STRETCH_SQRT:
-            from.stretch = volume::Stretch::sqrt;
-            break;
-        case pb::STRETCH_LOG:
-            from.stretch = volume::Stretch::log;
-            break;
-        case pb::STRETCH_ASINH:
-            from.stretch = volume::Stretch::asinh;
-            break;
-        default:
-            return invalid("mapping.stretch: unknown");
+    pb::Scaling same;
+    same.set_lo(mapping.lo());
+    same.set_hi(mapping.hi());
+    same.set_stretch(mapping.stretch());
+    const auto scaling = scaling_from(same);
+    if (!scaling) {
+        return invalid("mapping." + scaling.error().text);
     }
     if (mapping.bits() != 8 && mapping.bits() != 16) {
         return invalid("mapping.bits: 8 or 16 is wanted");
     }
-    from.bits = static_cast<int>(mapping.bits());
-    return from;
+    return volume::Mapping::of(*scaling, static_cast<int>(mapping.bits()));
 }
 
 pb::HistogramReport to_wire(const volume::Histogram& histogram) {

@@ -240,6 +240,7 @@ void Leaf::on_mapping(wire::LinkId link, const pb::Mapping& wanted, Effects& eff
         return;
     }
     mapping_ = *mapping;
+    send_histogram(sketched_, true, effects);  // it is forgotten where it was sent before
     advance(effects);
 }
 
@@ -375,6 +376,9 @@ void Leaf::report(Effects& effects) const {
     report.set_peak_bytes(memory_.peak);
     report.set_error(error_);
     report.set_parent_lost(!member_.has_parent());
+    if (loaded_mapping_ && phase_ == pb::PHASE_READY) {
+        *report.mutable_loaded() = wire::to_wire(*loaded_mapping_);
+    }
     member_.tell_server(wire::message(std::move(report)), effects.net);
 }
 

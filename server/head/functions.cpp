@@ -56,6 +56,14 @@ void Functions::forget(wire::LinkId client) {
     }
 }
 
+void Functions::drop_all() {
+    for (const Entry& entry : std::exchange(entries_, {})) {
+        dropped_.push_back(entry.key);
+    }
+    needs_.clear();
+    news_ = fresh_ = true;
+}
+
 Functions::Entry& Functions::entry(const FunctionKey& key) {
     const auto found = std::ranges::find(entries_, key, &Entry::key);
     if (found != entries_.end()) {

@@ -29,6 +29,8 @@ class Functions {
     // what it needed on other levels is still wanted. Whether there is something of it.
     bool need(wire::LinkId client, const view::TransferFunction& tf, culling::Kind kind, int level);
     void forget(wire::LinkId client);
+    // Values are mapped anew: none of the functions hold any more.
+    void drop_all();
 
     // What renderers are to be told, if that has changed since this last gave it, and has rested.
     std::optional<wire::Message> take_wanted(wire::Time now);

@@ -19,11 +19,9 @@ Head::Head(Roster roster, Limits limits)
     }
     std::vector<wire::NetEffect> none;
     branch_.configure(roster_.epoch(), children, none);
-    if (limits_.range) {
-        mapping_ = volume::Mapping{.lo = limits_.range->lo,
-                                   .hi = limits_.range->hi,
-                                   .stretch = limits_.stretch,
-                                   .bits = limits_.bits};
+    mapping_ = own_mapping();
+    if (mapping_) {
+        roster_.expect(*mapping_);
     }
 }
 
@@ -125,6 +123,7 @@ void Head::on_client_message(Session& session, const wire::Received& received, w
         }
         session.wanted = *std::move(view);
         session.asked = now;
+        on_scaling(session, session.wanted->scaling, now, effects);
         give_up_refinements(received.link, session, effects);
         begin_frames(received.link, session, now, effects);
     } else if (const auto* shown = std::get_if<pb::FrameShown>(&received.message.body)) {

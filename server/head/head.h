@@ -6,6 +6,7 @@
 //   unasked, the cube's picture of what it looks at
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -126,9 +127,10 @@ class Head {
         std::optional<wire::View> wanted;  // the newest not yet begun
         std::optional<wire::View> latest;  // the newest begun
         wire::Time asked{};
-        std::vector<std::uint64_t> in_flight;  // numbers of frames begun and not yet shown
-        bool incomplete = false;               // the newest picture lacked something
-        bool sketched = false;                 // the newest view begun is drawn from the sketch
+        std::vector<std::uint64_t> in_flight;    // numbers of frames begun and not yet shown
+        bool incomplete = false;                 // the newest picture lacked something
+        bool sketched = false;                   // the newest view begun is drawn from the sketch
+        std::optional<volume::Scaling> scaling;  // that the newest view had
         wire::Time begun{};
     };
     struct Eye {
@@ -163,11 +165,16 @@ class Head {
     void tell_state(Effects& effects);
     void settle_sketch(wire::Time now, Effects& effects);
     void settle_mapping(Effects& effects);
+    void on_scaling(Session& session, const std::optional<volume::Scaling>& scaling, wire::Time now,
+                    Effects& effects);
+    void remap(const volume::Mapping& mapping, wire::Time now, Effects& effects);
+    void tell_mapping(Effects& effects);
     volume::Mapping mapping_from(const volume::Histogram& histogram) const;
+    std::optional<volume::Mapping> own_mapping() const;  // as the limits say; unset until it can be known
     void describe_cube(wire::LinkId client, Effects& effects) const;
     void tell_cube(Effects& effects) const;  // all clients
-    template <class Which>
-    void give_up_frames(Session& session, const Which& which, Effects& effects);
+    void give_up_frames(Session& session, const std::function<bool(const FrameInWork&)>& which,
+                        Effects& effects);
     void give_up_refinements(wire::LinkId client, Session& session, Effects& effects);
     // The mapping to draw the sketch by, where that is what a view is drawn from now.
     std::optional<volume::Mapping> sketch_for(const wire::View& view) const;
@@ -198,6 +205,7 @@ class Head {
     Functions functions_;
     Picks picks_;
     std::optional<volume::Mapping> mapping_;
+    bool asked_for_ = false;                        // mapping_, by a client
     std::optional<volume::Mapping> sketch_;         // set once all have one: by its own limits
     std::optional<wire::pb::ValueSummary> values_;  // of the sketch's voxels, until all are counted
     bool serving_ = false;

@@ -43,8 +43,8 @@ void Head::on_finished(Finished finished, wire::Time now, Effects& effects) {
 }
 
 // Of a session's frames those that are still drawn and need not be.
-template <class Which>
-void Head::give_up_frames(Session& session, const Which& which, Effects& effects) {
+void Head::give_up_frames(Session& session, const std::function<bool(const FrameInWork&)>& which,
+                          Effects& effects) {
     std::erase_if(frames_, [&](const auto& entry) {
         const auto& [number, frame] = entry;
         const bool is_left = !frame.merged() && which(frame);

@@ -10,6 +10,14 @@ volume::Mapping Head::mapping_from(const volume::Histogram& histogram) const {
     return {.lo = limits.lo, .hi = limits.hi, .stretch = limits_.stretch, .bits = limits_.bits};
 }
 
+std::optional<volume::Mapping> Head::own_mapping() const {
+    if (limits_.range) {
+        return volume::Mapping::of({limits_.range->lo, limits_.range->hi, limits_.stretch}, limits_.bits);
+    }
+    const auto histogram = branch_.histogram(Counted::voxels);
+    return histogram ? std::optional(mapping_from(*histogram)) : std::nullopt;
+}
+
 void Head::settle_sketch(wire::Time now, Effects& effects) {
     if (!branch_.take_histogram_news(Counted::sketches) || sketch_ || roster_.cube().sketch_level == 0) {
         return;
@@ -38,13 +46,65 @@ void Head::settle_mapping(Effects& effects) {
         return;
     }
     if (!mapping_) {
-        mapping_ = mapping_from(*histogram);
-        pb::SetMapping set;
-        *set.mutable_mapping() = wire::to_wire(*mapping_);
-        branch_.tell_children(wire::message(std::move(set)), effects.net);
+        mapping_ = own_mapping();
+        tell_mapping(effects);
     }
     values_ = wire::to_wire(volume::summarise(*histogram, *mapping_));
     tell_cube(effects);
+}
+
+void Head::tell_mapping(Effects& effects) {
+    roster_.expect(*mapping_);
+    pb::SetMapping set;
+    *set.mutable_mapping() = wire::to_wire(*mapping_);
+    branch_.tell_children(wire::message(std::move(set)), effects.net);
+}
+
+// A client that has said nothing of limits before, and says nothing, takes what there are.
+void Head::on_scaling(Session& session, const std::optional<volume::Scaling>& scaling, wire::Time now,
+                      Effects& effects) {
+    if (scaling == std::exchange(session.scaling, scaling)) {
+        return;
+    }
+    if (scaling) {
+        remap(volume::Mapping::of(*scaling, limits_.bits), now, effects);
+        asked_for_ = true;
+    } else if (std::exchange(asked_for_, false)) {
+        if (const auto own = own_mapping()) {
+            remap(*own, now, effects);
+        } else {
+            mapping_.reset();  // until all is counted
+        }
+    }
+}
+
+// Renderers read their voxels once more. Until they have, no picture is made but of the sketch, and then
+// every client is sent what it looks at as it is now.
+void Head::remap(const volume::Mapping& mapping, wire::Time now, Effects& effects) {
+    if (mapping_ == mapping) {
+        return;
+    }
+    mapping_ = mapping;
+    serving_ = false;
+    sketch_.reset();
+    branch_.forget_sketches();
+    functions_.drop_all();
+    for (auto& [link, session] : sessions_) {
+        give_up_frames(
+            session, [&](const FrameInWork& frame) { return frame.client == link; }, effects);
+        if (!session.wanted && session.latest) {
+            session.wanted = session.latest;
+            session.asked = now;
+        }
+    }
+    tell_mapping(effects);
+    if (const auto histogram = branch_.histogram(Counted::voxels)) {
+        values_ = wire::to_wire(volume::summarise(*histogram, mapping));
+    } else if (values_) {
+        values_.reset();  // its bins are other values'
+    }
+    tell_cube(effects);
+    tell_state(effects);
 }
 
 void Head::tell_cube(Effects& effects) const {

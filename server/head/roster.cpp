@@ -71,8 +71,27 @@ bool Roster::report(wire::LinkId link, const pb::Report& report) {
         return false;
     }
     at(*place).report = report;
+    check_loaded(at(*place), *place);
     news_ = true;
     return true;
+}
+
+void Roster::expect(const volume::Mapping& mapping) {
+    expected_ = wire::to_wire(mapping);
+    for (std::size_t i = 1; i < holders_.size(); ++i) {
+        check_loaded(holders_[i], static_cast<tree::Place>(i));
+    }
+    news_ = true;
+}
+
+// What a renderer said before it heard of the mapping does not make it ready.
+void Roster::check_loaded(Holder& holder, tree::Place place) const {
+    const bool is_renderer = plan_.at(place).spec.role == tree::Role::renderer;
+    if (is_renderer && expected_ && holder.report.phase() == pb::PHASE_READY &&
+        holder.report.loaded().SerializeAsString() != expected_->SerializeAsString()) {
+        holder.report.set_phase(pb::PHASE_LOADING);
+        holder.report.set_fraction(0);
+    }
 }
 
 std::optional<Roster::Order> Roster::order_for(tree::Place place,

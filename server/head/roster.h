@@ -37,6 +37,8 @@ class Roster {
     bool holds_place(wire::LinkId link) const { return place_of(link).has_value(); }
     // False when the report is not about the link's own place.
     bool report(wire::LinkId link, const wire::pb::Report& report);
+    // From now on renderers are ready only with their voxels held by this mapping.
+    void expect(const volume::Mapping& mapping);
 
     // What the place's daemon must be told; nothing while it or its parent is not there.
     struct Order {
@@ -67,11 +69,13 @@ class Roster {
     Holder& at(tree::Place place) { return holders_[static_cast<std::size_t>(place)]; }
     const Holder& at(tree::Place place) const { return holders_[static_cast<std::size_t>(place)]; }
     void describe_work(tree::Place place, wire::pb::Assign& assign) const;
+    void check_loaded(Holder& holder, tree::Place place) const;
 
     tree::Plan plan_;
     CubeFacts cube_;
     std::uint64_t epoch_;
     int bits_;
+    std::optional<wire::pb::Mapping> expected_;
     std::vector<Holder> holders_;  // by place; the server's own is never filled
     bool news_ = true;
 };

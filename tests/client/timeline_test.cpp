@@ -26,7 +26,7 @@ Timeline three() {
     Timeline timeline;
     for (const auto& [time, azimuth] : {std::pair{0.0, 0.0}, {1.0, 40.0}, {3.0, 60.0}}) {
         timeline.seek(time);
-        timeline.keep(from(azimuth), view::default_transfer_function());
+        timeline.keep({from(azimuth), view::default_transfer_function(), {}});
     }
     return timeline;
 }
@@ -42,7 +42,7 @@ std::vector<double> times(const Timeline& timeline) {
 TEST(Timeline, TheFirstKeyGoesToTheBegin) {
     Timeline timeline;
     timeline.seek(4);
-    timeline.keep(from(10), view::default_transfer_function());
+    timeline.keep({from(10), view::default_transfer_function(), {}});
     EXPECT_EQ(times(timeline), std::vector<double>{0});
     EXPECT_EQ(timeline.at(), 0);
     EXPECT_EQ(timeline.selected(), 0U);
@@ -51,10 +51,10 @@ TEST(Timeline, TheFirstKeyGoesToTheBegin) {
 TEST(Timeline, KeysStandInOrderAndAreReplacedWhereOneIs) {
     Timeline timeline = three();
     timeline.seek(2);
-    timeline.keep(from(50), view::default_transfer_function());
+    timeline.keep({from(50), view::default_transfer_function(), {}});
     EXPECT_EQ(times(timeline), (std::vector<double>{0, 1, 2, 3}));
     timeline.seek(1.004);  // less than half a frame away
-    timeline.keep(from(45), view::default_transfer_function());
+    timeline.keep({from(45), view::default_transfer_function(), {}});
     EXPECT_EQ(times(timeline), (std::vector<double>{0, 1, 2, 3}));
     EXPECT_EQ(timeline.path().keys[1].viewpoint.orbit.azimuth, 45);
     EXPECT_TRUE(flight::validate(timeline.path()));
@@ -118,7 +118,7 @@ TEST(Timeline, OneKeyIsNoFlight) {
     Timeline timeline;
     timeline.play({});
     EXPECT_FALSE(timeline.playing());
-    timeline.keep(from(3), view::default_transfer_function());
+    timeline.keep({from(3), view::default_transfer_function(), {}});
     timeline.play({});
     EXPECT_FALSE(timeline.playing());
     EXPECT_EQ(timeline.seen(filmed_lattice)->viewpoint, from(3));

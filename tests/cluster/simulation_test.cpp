@@ -203,6 +203,56 @@ TEST(Simulation, AnyStormOfDeathsBetweenBandsEndsWhole) {
     storm({.seeds = 10, .size = size});
 }
 
+// A client's limits, asked for at any moment and taken back, with and without sketches, while daemons die: in
+// the end pictures are those of a tree that had the limits first, and those of one that never had them.
+TEST(Simulation, OtherLimitsEndAsIfTheyHadBeenThereFirst) {
+    Waves source(true);
+    const wire::View plain = view_of(large_cube);
+    wire::View scaled = plain;
+    scaled.scaling = volume::Scaling{4, 31, volume::Stretch::sqrt};
+    std::vector<image::Image<image::Rgba8>> expected;
+    for (const wire::View& view : {plain, scaled}) {
+        support::Simulation simulation(1, *tree::full_tree(2, 3), large_cube, source);
+        std::ranges::for_each(all_daemons(simulation), [&](tree::Place p) { simulation.start_daemon(p); });
+        const std::uint64_t revision = simulation.ask(view);
+        ASSERT_TRUE(simulation.run_until([&] { return simulation.answered_whole(revision); }));
+        expected.push_back(picture_of(*simulation.newest_frame(), view));
+    }
+    EXPECT_GT(support::difference(expected[0], expected[1]).largest, 20);
+    for (std::uint64_t seed = 0; seed < 24; ++seed) {
+        const bool sketched = seed % 2 == 0, deadly = seed % 3 == 0;
+        support::Simulation simulation(seed, *tree::full_tree(2, 3), large_cube, source, sketched ? 1 : 0);
+        const std::vector<tree::Place> places = all_daemons(simulation);
+        std::ranges::for_each(places, [&](tree::Place place) { simulation.start_daemon(place); });
+        auto& random = simulation.fabric().random();
+        for (int change = 0; change < 5; ++change) {
+            wire::View view = change % 2 == 0 ? scaled : plain;
+            view.sketch = sketched;
+            simulation.run_some(static_cast<int>(random() % 300));
+            const std::uint64_t revision = simulation.ask(view);
+            if (deadly) {
+                const tree::Place victim = places[random() % places.size()];
+                simulation.run_some(static_cast<int>(random() % 60));
+                simulation.kill_daemon(victim);
+                simulation.run_some(static_cast<int>(random() % 60));
+                simulation.start_daemon(victim);
+            }
+            if (change > 2 || random() % 2 == 0) {
+                ASSERT_TRUE(simulation.run_until([&] {
+                    return simulation.answered_whole(revision) && simulation.head().serving();
+                })) << "seed "
+                    << seed << " change " << change;
+                const auto picture = picture_of(*simulation.newest_frame(), view);
+                EXPECT_LE(support::difference(expected[change % 2 == 0 ? 1 : 0], picture).largest, 1)
+                    << "seed " << seed << " change " << change;
+                EXPECT_EQ(simulation.head().mapping()->scaling() == *scaled.scaling, change % 2 == 0);
+            }
+        }
+        EXPECT_TRUE(simulation.run_until([&] { return simulation.head().roster().all_ready(); }));
+        EXPECT_EQ(simulation.pictures(), 0U) << "seed " << seed;
+    }
+}
+
 // Functions do for all heights of a pin: changing them asks renderers for none.
 TEST(Simulation, ChangingHeightsFindsNoFunctions) {
     const volume::Index3 n{97, 97, 65};

@@ -34,6 +34,7 @@ Scene example() {
     scene.quality = view::Quality::draft;
     scene.target_rate = 33;
     scene.crop = volume::Box{{1, 0, 3}, {10, 20, 30}};
+    scene.scaling = {-0.25, 1.0 / 3, volume::Stretch::asinh};
     scene.stereo =
         Pair{{.separation = 0.1 + 0.2, .convergence = 70, .swap = true}, image::StereoMode::anaglyph};
     return scene;

@@ -197,7 +197,7 @@ TEST(Bytes, OfWhatHasToDoWithCulling) {
     EXPECT_EQ(body_of(culling.at(2)), of(culling[2]) + "5a0b080311000000000000e83f");
 }
 
-// What two eyes and a box to crop to add.
+// What two eyes, a box to crop to and limits add.
 TEST(Bytes, OfPairsAndCrops) {
     const std::string box = "0a060802100418061206085010641878";
     View view = view_request();
@@ -206,6 +206,9 @@ TEST(Bytes, OfPairsAndCrops) {
     view.crop = volume::Box{{1, 2, 3}, {40, 50, 60}};
     EXPECT_EQ(body_of(message(to_wire(view))),
               plain + "a2011409000000000000f03f1100000000000000401801" + "aa0110" + box);
+    const std::string paired = body_of(message(to_wire(view)));
+    view.scaling = volume::Scaling{1, 2, volume::Stretch::log};
+    EXPECT_EQ(body_of(message(to_wire(view))), paired + "b2011409000000000000f03f1100000000000000401802");
     view.camera.slant = {0.25, -0.5};
     const std::string slanted = body_of(message(to_wire(view)));
     EXPECT_NE(slanted.find("a101000000000000d03fa901000000000000e0bf"), std::string::npos) << slanted;

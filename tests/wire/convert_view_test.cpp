@@ -49,6 +49,25 @@ TEST(ViewConversion, ThereAndBack) {
     }
 }
 
+TEST(ViewConversion, LimitsThereAndBack) {
+    View view = view_request();
+    EXPECT_FALSE(view_from(to_wire(view)).value().scaling);
+    for (const auto stretch :
+         {volume::Stretch::linear, volume::Stretch::sqrt, volume::Stretch::log, volume::Stretch::asinh}) {
+        view.scaling = volume::Scaling{-3.5, 1e30, stretch};
+        EXPECT_EQ(view_from(to_wire(view)).value().scaling, view.scaling);
+    }
+    pb::SetView bad = to_wire(view);
+    bad.mutable_scaling()->set_stretch(static_cast<pb::Stretch>(4));
+    EXPECT_THAT(view_from(bad).error().text, testing::StartsWith("view.scaling"));
+    for (const auto& [lo, hi] : {std::pair{2.0, 1.0}, {not_finite, 1.0}, {0.0, inf}, {-1.7e308, 1.7e308}}) {
+        bad = to_wire(view);
+        bad.mutable_scaling()->set_lo(lo);
+        bad.mutable_scaling()->set_hi(hi);
+        EXPECT_THAT(view_from(bad).error().text, testing::StartsWith("view.scaling"));
+    }
+}
+
 TEST(ViewConversion, PairsAndCropsThereAndBack) {
     View view = view_request();
     const View plain = view_from(to_wire(view)).value();
