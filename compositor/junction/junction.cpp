@@ -108,8 +108,10 @@ void Junction::on_parent_message(const wire::Received& received, wire::Time now,
         }
     } else if (std::holds_alternative<pb::WantFunctions>(message.body)) {
         branch_.want_functions(message, effects.net);
-    } else if (std::holds_alternative<pb::SetMapping>(message.body)) {
-        branch_.forget_sketches();
+    } else if (const auto* mapping = std::get_if<pb::SetMapping>(&message.body)) {
+        if (mapping->anew()) {
+            branch_.forget_sketches();
+        }
         branch_.tell_children(message, effects.net);
     } else if (std::holds_alternative<pb::Voxels>(message.body)) {
         branch_.deliver_voxels(message, effects.net);

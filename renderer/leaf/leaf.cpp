@@ -224,7 +224,7 @@ void Leaf::on_parent_message(const wire::Received& received, Effects& effects) {
     } else if (const auto* want = std::get_if<pb::WantFunctions>(&message.body)) {
         on_want_functions(received.link, *want, effects);
     } else if (const auto* mapping = std::get_if<pb::SetMapping>(&message.body)) {
-        on_mapping(received.link, mapping->mapping(), effects);
+        on_mapping(received.link, *mapping, effects);
     } else if (const auto* voxels = std::get_if<pb::Voxels>(&message.body)) {
         if (wanted_ && voxels->request() == request_) {
             effects.jobs.emplace_back(HandVoxels{wanted_->job, message});
@@ -233,14 +233,16 @@ void Leaf::on_parent_message(const wire::Received& received, Effects& effects) {
     }
 }
 
-void Leaf::on_mapping(wire::LinkId link, const pb::Mapping& wanted, Effects& effects) {
-    const auto mapping = wire::mapping_from(wanted);
+void Leaf::on_mapping(wire::LinkId link, const pb::SetMapping& wanted, Effects& effects) {
+    const auto mapping = wire::mapping_from(wanted.mapping());
     if (!mapping) {
         effects.net.emplace_back(wire::CloseLink{link, mapping.error().reason, mapping.error().text});
         return;
     }
     mapping_ = *mapping;
-    send_histogram(sketched_, true, effects);  // it is forgotten where it was sent before
+    if (wanted.anew()) {
+        send_histogram(sketched_, true, effects);  // it is forgotten where it was sent before
+    }
     advance(effects);
 }
 

@@ -172,7 +172,7 @@ class Leaf {
     void on_probe(wire::LinkId link, const wire::pb::Probe& probe, Effects& effects);
     void on_sampled(const RaySampled& sampled, Effects& effects);
     void on_cancel(std::uint64_t frame, Effects& effects);
-    void on_mapping(wire::LinkId link, const wire::pb::Mapping& mapping, Effects& effects);
+    void on_mapping(wire::LinkId link, const wire::pb::SetMapping& wanted, Effects& effects);
 
     void advance(Effects& effects);  // begins whatever the state calls for
     void begin_count(Effects& effects);

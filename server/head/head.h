@@ -168,7 +168,7 @@ class Head {
     void on_scaling(Session& session, const std::optional<volume::Scaling>& scaling, wire::Time now,
                     Effects& effects);
     void remap(const volume::Mapping& mapping, wire::Time now, Effects& effects);
-    void tell_mapping(Effects& effects);
+    void tell_mapping(bool anew, Effects& effects);
     volume::Mapping mapping_from(const volume::Histogram& histogram) const;
     std::optional<volume::Mapping> own_mapping() const;  // as the limits say; unset until it can be known
     void describe_cube(wire::LinkId client, Effects& effects) const;

@@ -47,16 +47,17 @@ void Head::settle_mapping(Effects& effects) {
     }
     if (!mapping_) {
         mapping_ = own_mapping();
-        tell_mapping(effects);
+        tell_mapping(false, effects);
     }
     values_ = wire::to_wire(volume::summarise(*histogram, *mapping_));
     tell_cube(effects);
 }
 
-void Head::tell_mapping(Effects& effects) {
+void Head::tell_mapping(bool anew, Effects& effects) {
     roster_.expect(*mapping_);
     pb::SetMapping set;
     *set.mutable_mapping() = wire::to_wire(*mapping_);
+    set.set_anew(anew);
     branch_.tell_children(wire::message(std::move(set)), effects.net);
 }
 
@@ -97,7 +98,7 @@ void Head::remap(const volume::Mapping& mapping, wire::Time now, Effects& effect
             session.asked = now;
         }
     }
-    tell_mapping(effects);
+    tell_mapping(true, effects);
     if (const auto histogram = branch_.histogram(Counted::voxels)) {
         values_ = wire::to_wire(volume::summarise(*histogram, mapping));
     } else if (values_) {

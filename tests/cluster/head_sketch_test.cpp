@@ -65,6 +65,9 @@ class HeadSketchTest : public testing::Test {
         pb::Report report;
         report.set_place(place);
         report.set_phase(phase);
+        if (phase == pb::PHASE_READY && head_->mapping()) {
+            *report.mutable_loaded() = wire::to_wire(*head_->mapping());
+        }
         receive(control(place), report);
     }
     void count(std::uint32_t place, std::initializer_list<float> values, bool sketch) {
@@ -358,6 +361,48 @@ TEST_F(HeadSketchTest, LevelsOfDetailAreTheServersWhereTheClientDoesNotSay) {
             show(begun_.back().frame());
         }
     }
+}
+
+// Renderers that were ready are not, whatever they still say of the limits before.
+TEST_F(HeadSketchTest, OtherLimitsAreWaitedForAndReachEveryClient) {
+    start();
+    sketch_all();
+    count_all();
+    load_all();
+    ask(false);
+    ask(false, other);
+    ASSERT_THAT(begun_, SizeIs(2));
+    draw(1);
+    draw(2);
+    const volume::Mapping before = *head_->mapping();
+    wire::View scaled = view(false);
+    scaled.scaling = volume::Scaling{1, 2, volume::Stretch::log};
+    described_.clear();
+    receive(client, wire::to_wire(scaled));
+    EXPECT_EQ(head_->mapping(), volume::Mapping::of(*scaled.scaling, 8));
+    ASSERT_THAT(described_, SizeIs(2));
+    EXPECT_EQ(described_[1].mapping().lo(), 1);
+    pb::Report late;
+    late.set_place(1);
+    late.set_phase(pb::PHASE_READY);
+    *late.mutable_loaded() = wire::to_wire(before);
+    receive(control(1), late);
+    report(2, pb::PHASE_READY);
+    tick();
+    EXPECT_FALSE(head_->serving());
+    EXPECT_THAT(begun_, SizeIs(2)) << "nothing is drawn by two limits";
+    report(1, pb::PHASE_READY);
+    tick();
+    EXPECT_TRUE(head_->serving());
+    EXPECT_THAT(begun_, SizeIs(4)) << "the other client's too, unasked";
+
+    // The same again, and another client that says nothing of limits, change nothing.
+    receive(client, wire::to_wire(scaled));
+    ask(false, other);
+    EXPECT_TRUE(head_->serving());
+    ask(false);
+    EXPECT_EQ(head_->mapping(), before) << "taken back";
+    EXPECT_FALSE(head_->serving());
 }
 
 }  // namespace

@@ -50,13 +50,13 @@ a0 = 0.0
 x1 = 0.9
 a1 = 0.4
 [[key]]
-time = 1.0
-limits = [-0.5, 8]
+time = 0.9
+limits = [-0.01, 0.08]
 stretch = "sqrt"
 [[key]]
 time = 1.1
 azimuth = 95
-limits = [0, 10]
+limits = [0, 0.1]
 )";
         std::ofstream(scratch_.path("second.toml")) << "colourmap = \"viridis\"\n[[opacity]]\nkind = "
                                                        "\"ramp\"\nx0 = 0.1\na0 = 0.0\nx1 = 0.9\na1 = 0.4\n";
@@ -96,7 +96,7 @@ TEST_F(Movie, FramesEqualStills) {
     const std::pair<int, std::string> stills[] = {
         {0, "web.fits --azimuth 20 --distance 110"},
         {6, "galaxy.fits --percentile 99 --azimuth 50 --distance 90 --tf " + scratch_.path("second.toml")},
-        {11, "galaxy.fits --range 0 10 --stretch sqrt --azimuth 95 --distance 90 --tf " +
+        {11, "galaxy.fits --range 0 0.1 --stretch sqrt --azimuth 95 --distance 90 --tf " +
                  scratch_.path("second.toml")}};
     for (const auto& [number, view] : stills) {
         ASSERT_EQ(run("snapshot " + scratch_.path("") + view + size).status, 0);

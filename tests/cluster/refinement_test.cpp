@@ -33,6 +33,7 @@ class RefinementTest : public testing::Test {
             pb::Report report;
             report.set_place(static_cast<std::uint32_t>(place));
             report.set_phase(pb::PHASE_READY);
+            *report.mutable_loaded() = wire::to_wire(*head_.mapping());
             receive(control, report);
             children_.push_back(child);
         }
