@@ -80,7 +80,7 @@ Effects Leaf::handle(JobEvent event, wire::Time now) {
                     histogram_ = std::move(loaded->histogram);
                     send_histogram(histogram_, false, effects);
                 }
-                loaded_mapping_ = mapping_;
+                loaded_mapping_ = load_mapping_;
                 advance(effects);
             } else {
                 fail(loaded->status.error(), effects);
@@ -157,7 +157,7 @@ void Leaf::advance(Effects& effects) {
         if (loaded_mapping_ == mapping_) {
             enter(pb::PHASE_READY, effects);
             find_next(effects);
-        } else if (load_job_ == 0 || phase_ != pb::PHASE_LOADING) {
+        } else if (load_job_ == 0 || load_mapping_ != mapping_) {
             begin_load(effects);
         }
     } else if (histogram_) {
@@ -169,6 +169,7 @@ void Leaf::advance(Effects& effects) {
 
 void Leaf::begin_count(Effects& effects) {
     load_job_ = ++last_job_;
+    load_mapping_.reset();
     effects.jobs.emplace_back(Count{load_job_, *share_, sketch_to_make()});
     enter(pb::PHASE_COUNTING, effects);
 }
@@ -182,6 +183,7 @@ void Leaf::begin_load(Effects& effects) {
         give_up_frames(effects);
     }
     load_job_ = ++last_job_;
+    load_mapping_ = mapping_;
     effects.jobs.emplace_back(Load{load_job_, *share_, *mapping_, sketch_to_make(), !histogram_});
     enter(pb::PHASE_LOADING, effects);
 }

@@ -196,6 +196,7 @@ class Leaf {
     std::optional<Share> share_;
     std::optional<wire::pb::Assign> work_;           // what share_ was made from
     std::optional<volume::Mapping> mapping_;         // wanted
+    std::optional<volume::Mapping> load_mapping_;    // that load_job_ loads with; unset: it counts
     std::optional<volume::Mapping> loaded_mapping_;  // that the bricks are made with
     std::optional<volume::Histogram> histogram_;
     int sketch_level_ = 0;                       // wanted
