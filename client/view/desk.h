@@ -68,7 +68,7 @@ struct Desk {
         double plane;
     };
     std::optional<CropDrag> crop_drag;  // the face that is held
-    bool hold_values = false;           // pins stay at their data values when limits change
+    bool hold_values = true;            // pins stay at their data values when limits change
     bool dragging = false;              // something is held down while it changes the wish
     bool retry = false;                 // asked to dial now
     bool escape = false;                // the key was pressed in this pass

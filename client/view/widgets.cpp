@@ -78,10 +78,31 @@ void dot(const Desk& desk, ImU32 colour) {
     ImGui::SameLine();
 }
 
+namespace {
+
+// Of labels' buttons in a row: all alike, unless one would not hold its label.
+std::vector<float> button_widths(std::initializer_list<const char*> labels, float room) {
+    std::vector<float> widths;
+    float texts = 0, longest = 0;
+    for (const char* const label : labels) {
+        widths.push_back(ImGui::CalcTextSize(label).x);
+        texts += widths.back();
+        longest = std::max(longest, widths.back());
+    }
+    const float count = static_cast<float>(labels.size());
+    const bool alike = longest + ImGui::GetStyle().FramePadding.x <= room / count;
+    for (float& width : widths) {
+        width = alike ? room / count : width + (room - texts) / count;
+    }
+    return widths;
+}
+
+}  // namespace
+
 int switch_among(Desk& desk, const std::string& name, std::initializer_list<const char*> labels, int holds) {
     const float count = static_cast<float>(labels.size());
     const float gap = desk.px(4);
-    const float width = (ImGui::GetContentRegionAvail().x - gap * (count - 1)) / count;
+    const auto widths = button_widths(labels, ImGui::GetContentRegionAvail().x - gap * (count - 1));
     int holds_now = holds;
     int i = 0;
     for (const char* label : labels) {
@@ -92,7 +113,7 @@ int switch_among(Desk& desk, const std::string& name, std::initializer_list<cons
             ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32(50, 84, 132, 255));
             ImGui::PushStyleColor(ImGuiCol_ButtonHovered, IM_COL32(50, 84, 132, 255));
         }
-        holds_now = ImGui::Button(label, {width, 0}) ? i : holds_now;
+        holds_now = ImGui::Button(label, {widths[static_cast<std::size_t>(i)], 0}) ? i : holds_now;
         desk.controls.note(name + "/" + label);
         if (i == holds) {
             ImGui::PopStyleColor(2);
