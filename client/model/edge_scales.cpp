@@ -53,6 +53,10 @@ bool apart(const std::vector<EdgeScale::Label>& labels, double gap) {
     return true;
 }
 
+bool is_free(const Plate& plate, const std::vector<Plate>& taken, double gap) {
+    return std::ranges::none_of(taken, [&](const Plate& other) { return plate.overlaps(other, gap); });
+}
+
 // An axis' values along one edge, as if there were no others.
 struct Candidate {
     EdgeScale scale;
@@ -94,25 +98,24 @@ Candidate candidate(const Scene& scene, const Edge& edge, const Part& part, cons
     return made;
 }
 
-// Beside the labels, where there is room.
+// Beside the labels, where there is room for the axis' name or a short one.
 std::optional<EdgeScale::Label> title_of(const Scene& scene, const Candidate& chosen, const wcs::Axis& axis,
                                          const std::vector<Plate>& taken) {
-    const std::string text = wcs::title_text(axis);
-    const view::Vec2 size = scene.style.size_of(text);
     double beyond = 0;
     for (const EdgeScale::Label& label : chosen.scale.labels) {
         beyond = std::max(beyond, std::abs(chosen.outward.x) * label.plate.size.x +
                                       std::abs(chosen.outward.y) * label.plate.size.y);
     }
     const ScaleStyle& style = scene.style;
-    for (const double share : {0.5, 0.35, 0.65, 0.2, 0.8, 0.05, 0.95}) {
-        const double t = chosen.part.first + share * (chosen.part.last - chosen.part.first);
-        const Plate plate = plate_beyond(scene.pixels_of(chosen.edge, t), chosen.outward,
-                                         style.mark + style.gap * 2 + beyond, size);
-        const bool free =
-            std::ranges::none_of(taken, [&](const Plate& other) { return plate.overlaps(other, style.gap); });
-        if (free && scene.holds(plate)) {
-            return EdgeScale::Label{plate, text};
+    const double distance = style.mark + style.gap * 2 + beyond;
+    for (const std::string& text : {wcs::title_text(axis), wcs::short_title_text(axis)}) {
+        for (const double share : {0.5, 0.35, 0.65, 0.2, 0.8, 0.05, 0.95}) {
+            const double t = chosen.part.first + share * (chosen.part.last - chosen.part.first);
+            const Plate plate =
+                plate_beyond(scene.pixels_of(chosen.edge, t), chosen.outward, distance, style.size_of(text));
+            if (scene.holds(plate) && is_free(plate, taken, style.gap)) {
+                return EdgeScale::Label{plate, text};
+            }
         }
     }
     return std::nullopt;
@@ -163,9 +166,7 @@ std::vector<EdgeScale> edge_scales(const view::Camera& camera, const view::Image
     std::vector<Plate> taken = style.reserved;
     for (Candidate& one : chosen) {
         std::erase_if(one.scale.labels, [&](const EdgeScale::Label& label) {
-            const bool free = std::ranges::none_of(
-                taken, [&](const Plate& other) { return label.plate.overlaps(other, style.gap); });
-            if (free && scene.holds(label.plate)) {
+            if (scene.holds(label.plate) && is_free(label.plate, taken, style.gap)) {
                 taken.push_back(label.plate);
                 return false;
             }

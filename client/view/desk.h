@@ -114,9 +114,7 @@ struct Desk {
     }
     float px(float nominal) const { return nominal * scale; }
     bool has_cube() const { return status.cube.has_value(); }
-    void say(const std::string& words, bool is_bad = false) {
-        tell(base::printable(words, 300), is_bad);
-    }
+    void say(const std::string& words, bool is_bad = false) { tell(base::printable(words, 300), is_bad); }
     // What can be shown as it is.
     void tell(std::string words, bool is_bad = false) {
         saying = {std::move(words), is_bad, ImGui::GetTime() + (is_bad ? 12 : 5)};

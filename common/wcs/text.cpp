@@ -59,6 +59,11 @@ std::string plain(double value, double resolution) {
     return zero && words.starts_with('-') ? words.substr(1) : words;
 }
 
+// Beside the signs of angles.
+bool has_unit(const Axis& axis) {
+    return axis.notation == Notation::plain && !axis.unit.empty() && axis.unit != "deg";
+}
+
 double resolution_at(const Axis& axis, int along, const volume::Index3& n, const Place& place) {
     Place before = place, after = place;
     before[static_cast<std::size_t>(along)] -= 0.5;
@@ -96,13 +101,15 @@ std::string number_text(const Axis& axis, double value, double resolution) {
 }
 
 std::string value_text(const Axis& axis, double value, double resolution) {
-    const bool bare = axis.notation != Notation::plain || axis.unit.empty() || axis.unit == "deg";
-    return number_text(axis, value, resolution) + (bare ? "" : " " + axis.unit);
+    return number_text(axis, value, resolution) + (has_unit(axis) ? " " + axis.unit : "");
 }
 
 std::string title_text(const Axis& axis) {
-    const bool bare = axis.notation != Notation::plain || axis.unit.empty() || axis.unit == "deg";
-    return bare ? axis.name : axis.name + " (" + axis.unit + ")";
+    return has_unit(axis) ? axis.name + " (" + axis.unit + ")" : axis.name;
+}
+
+std::string short_title_text(const Axis& axis) {
+    return has_unit(axis) ? axis.label + " (" + axis.unit + ")" : axis.label;
 }
 
 std::string place_text(const Axes& axes, const volume::Index3& n, const Place& place) {

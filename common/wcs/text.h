@@ -12,8 +12,9 @@ namespace shearwater::wcs {
 std::string number_text(const Axis& axis, double value, double resolution);
 // With its unit: "42.5 km/s".
 std::string value_text(const Axis& axis, double value, double resolution);
-// What stands beside ticks: "RA", "velocity (km/s)".
+// What stands beside ticks: "right ascension", "velocity (km/s)"; in short "RA", "Vel (km/s)".
 std::string title_text(const Axis& axis);
+std::string short_title_text(const Axis& axis);
 
 // "RA 20h34m52.3s  Dec +60\u00b009'14\"  V 42.5 km/s" at a place: of the axes that are known, a little finer
 // than voxels; empty where none is.
