@@ -47,14 +47,19 @@ void draw_axes(const Desk& desk, const EyeArea& area) {
     std::ranges::sort(lines, {}, &Line::depth);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImFont* const font = desk.fonts.small;
+    ImVec2 sum;
+    for (const Line& line : lines) {
+        sum = {sum.x + line.end.x, sum.y + line.end.y};
+    }
+    const float size = std::hypot(sum.x, sum.y);
     for (const Line& line : lines) {
         const ImVec2 end{centre.x + line.end.x, centre.y + line.end.y};
         list.AddLine(centre, end, line.colour, desk.px(1.5F));
         const ImVec2 label = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, line.label.c_str());
-        // Beyond the end, whatever the label's shape.
+        // Beyond the end, whatever the label's shape. Where it is seen end on, away from the others.
         const float reach = std::hypot(line.end.x, line.end.y);
-        const ImVec2 along =
-            reach > desk.px(1) ? ImVec2{line.end.x / reach, line.end.y / reach} : ImVec2{0, -1};
+        const ImVec2 away{-sum.x / std::max(size, 1.0F), -sum.y / std::max(size, 1.0F)};
+        const ImVec2 along = reach > desk.px(2) ? ImVec2{line.end.x / reach, line.end.y / reach} : away;
         const float beyond = desk.px(3) + (std::abs(along.x) * label.x + std::abs(along.y) * label.y) / 2;
         const float x = end.x + along.x * beyond - label.x / 2;
         list.AddText(font, font->FontSize,

@@ -136,7 +136,8 @@ void read_parameters(const Header& header, const std::vector<Keys>& keys, wcsprm
     prm.restfrq = std::max(0.0, rest.value_or(0));
     prm.restwav = std::max(0.0, number(header, "RESTWAV").value_or(0));
     const auto velref = header.integer("VELREF").value_or(0);
-    prm.velref = velref > 0 && velref < 100000 ? static_cast<int>(velref) : 0;
+    // A frame from 1 to 7, and 256 more for radio velocities.
+    prm.velref = velref > 0 && velref < 512 && velref % 256 <= 7 ? static_cast<int>(velref) : 0;
 }
 
 // Ready to be asked; nothing where wcslib can make nothing of it.

@@ -59,6 +59,10 @@ std::string plain(double value, double resolution) {
     return zero && words.starts_with('-') ? words.substr(1) : words;
 }
 
+double on_circle(double degrees) {
+    return degrees - 360 * std::floor(degrees / 360);
+}
+
 // Beside the signs of angles.
 bool has_unit(const Axis& axis) {
     return axis.notation == Notation::plain && !axis.unit.empty() && axis.unit != "deg";
@@ -81,8 +85,7 @@ std::string number_text(const Axis& axis, double value, double resolution) {
     switch (axis.notation) {
         case Notation::hours: {
             constexpr double seconds = 240;  // of time, a degree
-            const double on_circle = value - 360 * std::floor(value / 360);
-            return sexagesimal(on_circle * seconds, resolution * seconds, {"h", "m", "s"}, 86400);
+            return sexagesimal(on_circle(value) * seconds, resolution * seconds, {"h", "m", "s"}, 86400);
         }
         case Notation::degrees: {
             const std::string words =
@@ -93,7 +96,7 @@ std::string number_text(const Axis& axis, double value, double resolution) {
         case Notation::plain:
             break;
     }
-    std::string words = plain(value, resolution);
+    std::string words = plain(axis.circle ? on_circle(value) : value, resolution);
     if (axis.circle && words == plain(360, resolution)) {
         words = plain(0, resolution);
     }

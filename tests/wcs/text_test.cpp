@@ -59,9 +59,11 @@ TEST(WorldText, PlainNumbers) {
     }
     EXPECT_EQ(number_text(glon, 359.5, 0.5), "359.5\u00b0");
     EXPECT_EQ(number_text(glon, 359.99, 0.5), "0.0\u00b0");
+    EXPECT_EQ(number_text(glon, -2, 1), "358\u00b0");
     EXPECT_EQ(value_text(velocity, 42, 1), "42 km/s");
     EXPECT_EQ(value_text(glon, 42, 1), "42\u00b0");
     EXPECT_EQ(title_text(velocity), "velocity (km/s)");
+    EXPECT_EQ(short_title_text(velocity), "Vel (km/s)");
     EXPECT_EQ(title_text(ra), "right ascension");
     for (const Axis& axis : {ra, dec, glon, velocity}) {
         EXPECT_EQ(number_text(axis, std::nan(""), 1), "-");
