@@ -173,6 +173,8 @@ std::vector<EdgeScale> edge_scales(const view::Camera& camera, const view::Image
             return true;
         });
     }
+    // Marks that say nothing are none.
+    std::erase_if(chosen, [](const Candidate& one) { return one.scale.labels.empty(); });
     std::vector<EdgeScale> scales;
     for (Candidate& one : chosen) {
         auto title = title_of(scene, one, wcs::shown_axis(world, one.edge.along, lattice.n), taken);

@@ -177,6 +177,7 @@ TEST(EdgeScales, NothingLiesOverAnything) {
         std::vector<Plate> plates{{{0, 512}, {88, 88}}};
         for (const EdgeScale& scale : scales) {
             titles += scale.titled ? 1 : 0;
+            EXPECT_GE(scale.labels.size(), scale.titled ? 2U : 1U) << "marks without values";
             for (const EdgeScale::Label& label : scale.labels) {
                 ++labels;
                 EXPECT_GE(label.plate.from.x, 0);
