@@ -16,9 +16,9 @@ namespace shearwater::fits {
 
 namespace {
 
-constexpr std::size_t most_axes = 12;    // with those of length 1
-constexpr int most_parameters = 30;      // PVi_0 to PVi_29, as far as projections have them
-constexpr double most_degrees = 100000;  // what goes round more often is no angle
+constexpr std::size_t most_world_axes = 12;  // with those of length 1
+constexpr int most_parameters = 30;          // PVi_0 to PVi_29, as far as projections have them
+constexpr double most_degrees = 100000;      // what goes round more often is no angle
 constexpr double largest = 1e60;
 
 struct Free {
@@ -301,9 +301,9 @@ wcs::Axis axis_of(wcsprm& prm, const CubeAxes& axes, const Keys& keys, std::size
 wcs::Axes read_world(const Header& header, const std::vector<std::int64_t>& lengths, const CubeAxes& axes,
                      std::vector<std::string>& notes) {
     const std::int64_t stated = header.integer("WCSAXES").value_or(0);
-    const std::size_t count =
-        std::max(lengths.size(), static_cast<std::size_t>(std::clamp<std::int64_t>(stated, 0, most_axes)));
-    if (count > most_axes) {
+    const std::size_t count = std::max(
+        lengths.size(), static_cast<std::size_t>(std::clamp<std::int64_t>(stated, 0, most_world_axes)));
+    if (count > most_world_axes) {
         notes.emplace_back("the header's world coordinates have too many axes to be used");
         return {};
     }

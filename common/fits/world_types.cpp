@@ -12,34 +12,34 @@ namespace {
 
 using wcs::Notation;
 
-struct Known {
+struct KnownType {
     std::string_view type;  // what stands before the first "-"
     std::string_view name, label;
     Quantity quantity;
     Notation notation = Notation::plain;
     bool circle = false;
 };
-constexpr std::array known{
-    Known{"RA", "right ascension", "RA", Quantity::angle, Notation::hours, true},
-    Known{"DEC", "declination", "Dec", Quantity::angle, Notation::degrees},
-    Known{"GLON", "galactic longitude", "GLon", Quantity::angle, Notation::plain, true},
-    Known{"GLAT", "galactic latitude", "GLat", Quantity::angle},
-    Known{"ELON", "ecliptic longitude", "ELon", Quantity::angle, Notation::plain, true},
-    Known{"ELAT", "ecliptic latitude", "ELat", Quantity::angle},
-    Known{"SLON", "supergalactic longitude", "SGLon", Quantity::angle, Notation::plain, true},
-    Known{"SLAT", "supergalactic latitude", "SGLat", Quantity::angle},
-    Known{"HLON", "helioecliptic longitude", "HLon", Quantity::angle, Notation::plain, true},
-    Known{"HLAT", "helioecliptic latitude", "HLat", Quantity::angle},
-    Known{"HPLN", "helioprojective longitude", "HPLn", Quantity::angle},
-    Known{"HPLT", "helioprojective latitude", "HPLt", Quantity::angle},
-    Known{"FREQ", "frequency", "Freq", Quantity::frequency},
-    Known{"VELO", "velocity", "Vel", Quantity::speed},
-    Known{"VRAD", "radio velocity", "Vel", Quantity::speed},
-    Known{"VOPT", "optical velocity", "Vel", Quantity::speed},
-    Known{"FELO", "optical velocity", "Vel", Quantity::speed},
-    Known{"WAVE", "wavelength", "Wave", Quantity::length},
-    Known{"AWAV", "wavelength in air", "Wave", Quantity::length},
-    Known{"ENER", "energy", "Energy", Quantity::energy},
+constexpr std::array known_types{
+    KnownType{"RA", "right ascension", "RA", Quantity::angle, Notation::hours, true},
+    KnownType{"DEC", "declination", "Dec", Quantity::angle, Notation::degrees},
+    KnownType{"GLON", "galactic longitude", "GLon", Quantity::angle, Notation::plain, true},
+    KnownType{"GLAT", "galactic latitude", "GLat", Quantity::angle},
+    KnownType{"ELON", "ecliptic longitude", "ELon", Quantity::angle, Notation::plain, true},
+    KnownType{"ELAT", "ecliptic latitude", "ELat", Quantity::angle},
+    KnownType{"SLON", "supergalactic longitude", "SGLon", Quantity::angle, Notation::plain, true},
+    KnownType{"SLAT", "supergalactic latitude", "SGLat", Quantity::angle},
+    KnownType{"HLON", "helioecliptic longitude", "HLon", Quantity::angle, Notation::plain, true},
+    KnownType{"HLAT", "helioecliptic latitude", "HLat", Quantity::angle},
+    KnownType{"HPLN", "helioprojective longitude", "HPLn", Quantity::angle},
+    KnownType{"HPLT", "helioprojective latitude", "HPLt", Quantity::angle},
+    KnownType{"FREQ", "frequency", "Freq", Quantity::frequency},
+    KnownType{"VELO", "velocity", "Vel", Quantity::speed},
+    KnownType{"VRAD", "radio velocity", "Vel", Quantity::speed},
+    KnownType{"VOPT", "optical velocity", "Vel", Quantity::speed},
+    KnownType{"FELO", "optical velocity", "Vel", Quantity::speed},
+    KnownType{"WAVE", "wavelength", "Wave", Quantity::length},
+    KnownType{"AWAV", "wavelength in air", "Wave", Quantity::length},
+    KnownType{"ENER", "energy", "Energy", Quantity::energy},
 };
 
 std::string upper(std::string_view text) {
@@ -64,8 +64,8 @@ WorldType world_type(std::string_view written, const Unit& unit) {
     const std::string type = upper(written);
     const std::string_view first = std::string_view(type).substr(0, type.find('-'));
     WorldType result;
-    const auto* const found = std::ranges::find(known, first, &Known::type);
-    if (found == known.end()) {
+    const auto* const found = std::ranges::find(known_types, first, &KnownType::type);
+    if (found == known_types.end()) {
         result.quantity = unit.quantity;
         if (type == "LINEAR") {
             name_by_unit(result, unit.quantity);

@@ -13,52 +13,52 @@ namespace {
 constexpr double degrees_a_radian = 57.295779513082323;
 constexpr double joules_an_electronvolt = 1.602176634e-19;
 
-struct Known {
+struct KnownUnit {
     std::string_view spelling;  // in lower case
     Quantity quantity;
     double in_si;
     std::string_view shown;
 };
-constexpr std::array known{
-    Known{"deg", Quantity::angle, 1, "deg"},
-    Known{"degree", Quantity::angle, 1, "deg"},
-    Known{"degrees", Quantity::angle, 1, "deg"},
-    Known{"arcmin", Quantity::angle, 1.0 / 60, "arcmin"},
-    Known{"arcsec", Quantity::angle, 1.0 / 3600, "arcsec"},
-    Known{"mas", Quantity::angle, 1.0 / 3600000, "mas"},
-    Known{"rad", Quantity::angle, degrees_a_radian, "rad"},
-    Known{"radian", Quantity::angle, degrees_a_radian, "rad"},
-    Known{"m/s", Quantity::speed, 1, "m/s"},
-    Known{"m s-1", Quantity::speed, 1, "m/s"},
-    Known{"m.s-1", Quantity::speed, 1, "m/s"},
-    Known{"m s**-1", Quantity::speed, 1, "m/s"},
-    Known{"m/sec", Quantity::speed, 1, "m/s"},
-    Known{"km/s", Quantity::speed, 1e3, "km/s"},
-    Known{"km s-1", Quantity::speed, 1e3, "km/s"},
-    Known{"km.s-1", Quantity::speed, 1e3, "km/s"},
-    Known{"km s**-1", Quantity::speed, 1e3, "km/s"},
-    Known{"km/sec", Quantity::speed, 1e3, "km/s"},
-    Known{"cm/s", Quantity::speed, 1e-2, "cm/s"},
-    Known{"hz", Quantity::frequency, 1, "Hz"},
-    Known{"khz", Quantity::frequency, 1e3, "kHz"},
-    Known{"mhz", Quantity::frequency, 1e6, "MHz"},
-    Known{"ghz", Quantity::frequency, 1e9, "GHz"},
-    Known{"thz", Quantity::frequency, 1e12, "THz"},
-    Known{"m", Quantity::length, 1, "m"},
-    Known{"cm", Quantity::length, 1e-2, "cm"},
-    Known{"mm", Quantity::length, 1e-3, "mm"},
-    Known{"um", Quantity::length, 1e-6, "um"},
-    Known{"micron", Quantity::length, 1e-6, "um"},
-    Known{"microns", Quantity::length, 1e-6, "um"},
-    Known{"nm", Quantity::length, 1e-9, "nm"},
-    Known{"angstrom", Quantity::length, 1e-10, "Angstrom"},
-    Known{"angstroms", Quantity::length, 1e-10, "Angstrom"},
-    Known{"j", Quantity::energy, 1, "J"},
-    Known{"ev", Quantity::energy, joules_an_electronvolt, "eV"},
-    Known{"kev", Quantity::energy, 1e3 * joules_an_electronvolt, "keV"},
-    Known{"mev", Quantity::energy, 1e6 * joules_an_electronvolt, "MeV"},
-    Known{"gev", Quantity::energy, 1e9 * joules_an_electronvolt, "GeV"},
-    Known{"tev", Quantity::energy, 1e12 * joules_an_electronvolt, "TeV"},
+constexpr std::array known_units{
+    KnownUnit{"deg", Quantity::angle, 1, "deg"},
+    KnownUnit{"degree", Quantity::angle, 1, "deg"},
+    KnownUnit{"degrees", Quantity::angle, 1, "deg"},
+    KnownUnit{"arcmin", Quantity::angle, 1.0 / 60, "arcmin"},
+    KnownUnit{"arcsec", Quantity::angle, 1.0 / 3600, "arcsec"},
+    KnownUnit{"mas", Quantity::angle, 1.0 / 3600000, "mas"},
+    KnownUnit{"rad", Quantity::angle, degrees_a_radian, "rad"},
+    KnownUnit{"radian", Quantity::angle, degrees_a_radian, "rad"},
+    KnownUnit{"m/s", Quantity::speed, 1, "m/s"},
+    KnownUnit{"m s-1", Quantity::speed, 1, "m/s"},
+    KnownUnit{"m.s-1", Quantity::speed, 1, "m/s"},
+    KnownUnit{"m s**-1", Quantity::speed, 1, "m/s"},
+    KnownUnit{"m/sec", Quantity::speed, 1, "m/s"},
+    KnownUnit{"km/s", Quantity::speed, 1e3, "km/s"},
+    KnownUnit{"km s-1", Quantity::speed, 1e3, "km/s"},
+    KnownUnit{"km.s-1", Quantity::speed, 1e3, "km/s"},
+    KnownUnit{"km s**-1", Quantity::speed, 1e3, "km/s"},
+    KnownUnit{"km/sec", Quantity::speed, 1e3, "km/s"},
+    KnownUnit{"cm/s", Quantity::speed, 1e-2, "cm/s"},
+    KnownUnit{"hz", Quantity::frequency, 1, "Hz"},
+    KnownUnit{"khz", Quantity::frequency, 1e3, "kHz"},
+    KnownUnit{"mhz", Quantity::frequency, 1e6, "MHz"},
+    KnownUnit{"ghz", Quantity::frequency, 1e9, "GHz"},
+    KnownUnit{"thz", Quantity::frequency, 1e12, "THz"},
+    KnownUnit{"m", Quantity::length, 1, "m"},
+    KnownUnit{"cm", Quantity::length, 1e-2, "cm"},
+    KnownUnit{"mm", Quantity::length, 1e-3, "mm"},
+    KnownUnit{"um", Quantity::length, 1e-6, "um"},
+    KnownUnit{"micron", Quantity::length, 1e-6, "um"},
+    KnownUnit{"microns", Quantity::length, 1e-6, "um"},
+    KnownUnit{"nm", Quantity::length, 1e-9, "nm"},
+    KnownUnit{"angstrom", Quantity::length, 1e-10, "Angstrom"},
+    KnownUnit{"angstroms", Quantity::length, 1e-10, "Angstrom"},
+    KnownUnit{"j", Quantity::energy, 1, "J"},
+    KnownUnit{"ev", Quantity::energy, joules_an_electronvolt, "eV"},
+    KnownUnit{"kev", Quantity::energy, 1e3 * joules_an_electronvolt, "keV"},
+    KnownUnit{"mev", Quantity::energy, 1e6 * joules_an_electronvolt, "MeV"},
+    KnownUnit{"gev", Quantity::energy, 1e9 * joules_an_electronvolt, "GeV"},
+    KnownUnit{"tev", Quantity::energy, 1e12 * joules_an_electronvolt, "TeV"},
 };
 
 }  // namespace
@@ -67,8 +67,8 @@ Unit unit_of(std::string_view written) {
     std::string lower(written);
     std::ranges::transform(lower, lower.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const auto* const found = std::ranges::find(known, std::string_view(lower), &Known::spelling);
-    if (found == known.end()) {
+    const auto* const found = std::ranges::find(known_units, std::string_view(lower), &KnownUnit::spelling);
+    if (found == known_units.end()) {
         return {.shown = base::printable(written, 20)};
     }
     return {found->quantity, found->in_si, std::string(found->shown)};
