@@ -11,7 +11,7 @@
 #include "client/model/world_steps.h"
 #include "common/view/project.h"
 
-namespace shearwater::model {
+namespace shearwater::model::edge_scales_test {
 namespace {
 
 const wcs::Axis ra{.name = "right ascension",
@@ -231,4 +231,4 @@ TEST(EdgeScales, OfAnyValues) {
 }
 
 }  // namespace
-}  // namespace shearwater::model
+}  // namespace shearwater::model::edge_scales_test
