@@ -153,6 +153,13 @@ TEST_F(World, TypesOfBeforeTheStandard) {
     EXPECT_NEAR(at(info.world[0], 20, 20, 0), 40, 1e-9);
     EXPECT_EQ(info.world[2].name, "velocity");
     EXPECT_NEAR(at(info.world[2], 0, 0, 8), -68, 1e-9);
+    // The standard's way to say the same, by parameters.
+    const CubeInfo slant =
+        open({41, 41, 9}, axis(1, "RA---SIN", 40, 21, -step) + axis(2, "DEC--SIN", dec0, 21, step) +
+                              Cards{real("PV2_1", 0), real("PV2_2", 1 / std::tan(dec0 / degrees))});
+    for (std::size_t a = 0; a < 2; ++a) {
+        EXPECT_NEAR(at(slant.world[a], 33, 40, 0), at(info.world[a], 33, 40, 0), 1e-9);
+    }
 }
 
 TEST_F(World, ShortAxesAndPlanesAreSteppedOver) {
