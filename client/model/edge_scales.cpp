@@ -98,22 +98,37 @@ Candidate candidate(const Scene& scene, const Edge& edge, const Part& part, cons
     return made;
 }
 
-// Beside the labels, where there is room for the axis' name or a short one.
-std::optional<EdgeScale::Label> title_of(const Scene& scene, const Candidate& chosen, const wcs::Axis& axis,
-                                         const std::vector<Plate>& taken) {
+// Where a title may stand: beside the labels, or in line with them past either end of the edge.
+std::vector<Plate> places_for(const Scene& scene, const Candidate& chosen, view::Vec2 size) {
+    const ScaleStyle& style = scene.style;
+    const view::Vec2 outward = chosen.outward;
     double beyond = 0;
     for (const EdgeScale::Label& label : chosen.scale.labels) {
-        beyond = std::max(beyond, std::abs(chosen.outward.x) * label.plate.size.x +
-                                      std::abs(chosen.outward.y) * label.plate.size.y);
+        beyond = std::max(
+            beyond, std::abs(outward.x) * label.plate.size.x + std::abs(outward.y) * label.plate.size.y);
     }
-    const ScaleStyle& style = scene.style;
-    const double distance = style.mark + style.gap * 2 + beyond;
+    std::vector<Plate> places;
+    for (const double share : {0.5, 0.35, 0.65, 0.2, 0.8, 0.05, 0.95}) {
+        const double t = chosen.part.first + share * (chosen.part.last - chosen.part.first);
+        places.push_back(plate_beyond(scene.pixels_of(chosen.edge, t), outward,
+                                      style.mark + style.gap * 2 + beyond, size));
+    }
+    const view::Vec2 way = glm::normalize(chosen.part.to - chosen.part.from);
+    const double reach = (std::abs(way.x) * size.x + std::abs(way.y) * size.y) / 2;
+    for (const double gaps : {0.0, 2.0, 4.0, 6.0}) {
+        const view::Vec2 past = way * (reach + gaps * style.gap);
+        places.push_back(plate_beyond(chosen.part.to + past, outward, style.mark + style.gap / 2, size));
+        places.push_back(plate_beyond(chosen.part.from - past, outward, style.mark + style.gap / 2, size));
+    }
+    return places;
+}
+
+// The axis' name, or a short one, where there is room.
+std::optional<EdgeScale::Label> title_of(const Scene& scene, const Candidate& chosen, const wcs::Axis& axis,
+                                         const std::vector<Plate>& taken) {
     for (const std::string& text : {wcs::title_text(axis), wcs::short_title_text(axis)}) {
-        for (const double share : {0.5, 0.35, 0.65, 0.2, 0.8, 0.05, 0.95}) {
-            const double t = chosen.part.first + share * (chosen.part.last - chosen.part.first);
-            const Plate plate =
-                plate_beyond(scene.pixels_of(chosen.edge, t), chosen.outward, distance, style.size_of(text));
-            if (scene.holds(plate) && is_free(plate, taken, style.gap)) {
+        for (const Plate& plate : places_for(scene, chosen, scene.style.size_of(text))) {
+            if (scene.holds(plate) && is_free(plate, taken, scene.style.gap)) {
                 return EdgeScale::Label{plate, text};
             }
         }
