@@ -5,12 +5,28 @@
 #include "common/cube/open.h"
 #include "common/options/cube_options.h"
 #include "common/volume/statistics.h"
+#include "common/wcs/text.h"
 #include "deploy/commands.h"
 #include "deploy/progress_bar.h"
 #include "protocol/daemon/runtime.h"
 
 namespace shearwater::deploy {
 namespace {
+
+// From the first voxel to the last of each axis, through the cube's middle.
+void print_world(const fits::CubeInfo& info) {
+    constexpr const char* names[] = {"x", "y", "z"};
+    for (int along = 0; along < 3; ++along) {
+        const auto a = static_cast<std::size_t>(along);
+        const wcs::Axis& axis = info.world[a];
+        if (axis.known()) {
+            std::cout << "  " << names[a] << "         " << axis.name << ", "
+                      << wcs::plane_text(info.world, along, info.n, 0) << " to "
+                      << wcs::plane_text(info.world, along, info.n, static_cast<double>(info.n[a] - 1))
+                      << "\n";
+        }
+    }
+}
 
 void print_header(const fits::CubeInfo& info) {
     std::cout << info.path << ", HDU " << info.hdu << "\n";
@@ -25,6 +41,7 @@ void print_header(const fits::CubeInfo& info) {
                   << info.file_axes[i] << ")";
     }
     std::cout << "\n";
+    print_world(info);
     if (info.planes > 1) {
         std::cout << "  plane     " << info.plane << " of " << info.planes << "\n";
     }
@@ -47,7 +64,9 @@ void print_values(const volume::Histogram& histogram, const fits::CubeInfo& info
 }
 
 base::Status info(const options::CubeOptions& options, int threads) {
-    auto cube = cube::open(options.path, options.open_options());
+    fits::OpenOptions open = options.open_options();
+    open.world = true;
+    auto cube = cube::open(options.path, open);
     if (!cube) {
         return cube.error();
     }

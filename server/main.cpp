@@ -46,7 +46,8 @@ head::CubeFacts facts_of(const fits::CubeInfo& info, const options::CubeOptions&
             .hdu = info.hdu,
             .plane = info.plane,
             .lattice = {.n = info.n, .spacing = options.spacing_value()},
-            .sketch_level = volume::sketch_level(info.n)};
+            .sketch_level = volume::sketch_level(info.n),
+            .world = info.world};
 }
 
 head::Limits limits_of(const options::CubeOptions& options, const options::ServeOptions& serve) {
@@ -136,7 +137,9 @@ int main(int argc, char** argv) {
     if (!secret) {
         return daemon::refuse(program, secret.error());
     }
-    auto cube = cube::open(flags.cube.path, flags.cube.open_options());
+    fits::OpenOptions open = flags.cube.open_options();
+    open.world = true;
+    auto cube = cube::open(flags.cube.path, open);
     if (!cube) {
         return daemon::refuse(program, cube.error());
     }

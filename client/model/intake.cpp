@@ -5,6 +5,7 @@
 #include <map>
 
 #include "protocol/wire/convert.h"
+#include "protocol/wire/convert_world.h"
 
 namespace shearwater::model {
 
@@ -83,6 +84,11 @@ wire::Parsed<Cube> cube_from(const pb::CubeDescription& description) {
               .mapping = *mapping,
               .provisional = description.provisional(),
               .values = nullptr};
+    auto world = wire::axes_from(description.axes());
+    if (!world) {
+        return world.error();
+    }
+    cube.world = std::make_shared<const wcs::Axes>(*std::move(world));
     if (description.has_values()) {
         auto values = wire::summary_from(description.values());
         if (!values) {

@@ -7,23 +7,13 @@
 #include <cmath>
 
 #include "client/model/pins.h"
+#include "client/model/world_steps.h"
 
 namespace shearwater::model {
 
 namespace {
 
 const double decades = -std::log10(least_logarithmic);
-
-// The least of 1, 2 and 5 times a power of ten that is no less.
-double round_step(double step) {
-    const double power = std::pow(10.0, std::floor(std::log10(step)));
-    for (const double factor : {1.0, 2.0, 5.0}) {
-        if (factor * power >= step * (1 - 1e-9)) {
-            return factor * power;
-        }
-    }
-    return 10 * power;
-}
 
 std::vector<double> round_positions(double lo, double hi, int wanted) {
     const double step = round_step((hi - lo) / wanted);

@@ -11,6 +11,7 @@
 #include "common/view/value_scale.h"
 #include "common/volume/mapping.h"
 #include "common/volume/summary.h"
+#include "common/wcs/axis.h"
 #include "protocol/wire/shearwater.pb.h"
 
 namespace shearwater::model {
@@ -22,6 +23,7 @@ struct Cube {
     bool provisional = false;                       // its limits, which are those of a sketch
     std::shared_ptr<const volume::Summary> values;  // null until any are counted
     bool provisional_values = false;                // they are those of a sketch
+    std::shared_ptr<const wcs::Axes> world = std::make_shared<const wcs::Axes>();  // of its axes
 
     view::ValueScale scale() const { return view::ValueScale(mapping, values); }
 };

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
+#include <glm/trigonometric.hpp>
 
 #include "client/model/viewpoint.h"
 
@@ -11,10 +11,8 @@ namespace shearwater::model {
 
 namespace {
 
-constexpr double radians = std::numbers::pi / 180;
-
 double sine_of_half(const Viewpoint& viewpoint) {
-    return std::sin(viewpoint.fov / 2 * radians);
+    return std::sin(glm::radians(viewpoint.fov) / 2);
 }
 
 int axis_of(Number which) {

@@ -244,6 +244,7 @@ void App::on_picked(const model::Picked& picked) {
     } else if (picked.hit) {
         const view::Vec3 point = desk_.lattice().world_from_voxel(picked.hit->voxel);
         desk_.jump_by([&](model::Viewpoint& to) { model::set_pivot(to, point, desk_.lattice()); });
+        desk_.tell("Turning about " + place_text(desk_, picked.hit->voxel, "   "));
     } else {
         desk_.say(picked.incomplete ? "What is there is not loaded" : "There is nothing to turn about");
     }

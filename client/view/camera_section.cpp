@@ -102,6 +102,9 @@ void fields(Desk& desk, std::initializer_list<Field> row) {
 void numbers(Desk& desk) {
     ImGui::Checkbox("numbers", &desk.numbers);
     desk.controls.note("camera/numbers");
+    ImGui::SameLine(0, desk.px(14));
+    ImGui::Checkbox("edges and scales", &desk.boxed);
+    desk.controls.note("camera/boxed");
     if (!desk.numbers || !desk.has_cube()) {
         return;
     }

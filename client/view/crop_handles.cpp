@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "client/model/crop.h"
+#include "common/wcs/text.h"
 
 namespace shearwater::ui {
 
@@ -79,8 +80,11 @@ void crop_handles(Desk& desk, const EyeArea& area, const view::Camera& camera, i
         if (lit) {
             ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
             const auto a = static_cast<std::size_t>(face.axis);
-            ImGui::SetTooltip("%c %s %lld", "xyz"[face.axis], face.upper ? "to" : "from",
-                              static_cast<long long>(face.upper ? box.hi[a] : box.lo[a]));
+            const std::int64_t plane = face.upper ? box.hi[a] : box.lo[a];
+            const std::string world = wcs::plane_text(*desk.status.cube->world, face.axis, desk.lattice().n,
+                                                      static_cast<double>(plane));
+            ImGui::SetTooltip("%c %s %lld%s%s", "xyz"[face.axis], face.upper ? "to" : "from",
+                              static_cast<long long>(plane), world.empty() ? "" : "\n", world.c_str());
         }
     }
 }

@@ -5,6 +5,7 @@
 #include "client/model/crop.h"
 #include "client/view/sections.h"
 #include "client/view/widgets.h"
+#include "common/wcs/text.h"
 
 namespace shearwater::ui {
 
@@ -29,6 +30,20 @@ void plane_slider(Desk& desk, model::BoxFace face, float width) {
     desk.controls.note("crop/" + name);
 }
 
+// What the header says of both ends.
+void world_line(const Desk& desk, int along) {
+    const wcs::Axes& world = *desk.status.cube->world;
+    const auto a = static_cast<std::size_t>(along);
+    if (!world[a].known()) {
+        return;
+    }
+    const volume::Box box = model::shown_box(desk.wish.crop, desk.lattice());
+    const auto at = [&](std::int64_t plane) {
+        return wcs::plane_text(world, along, desk.lattice().n, static_cast<double>(plane));
+    };
+    small_text(desk, theme::muted, fmt::format("{} {} to {}", world[a].label, at(box.lo[a]), at(box.hi[a])));
+}
+
 std::string size_text(const volume::Box& box) {
     return fmt::format("{} \u00d7 {} \u00d7 {} voxels", box.planes(0), box.planes(1), box.planes(2));
 }
@@ -46,6 +61,7 @@ void crop_section(Desk& desk) {
         plane_slider(desk, {axis, false}, width);
         ImGui::SameLine(0, gap);
         plane_slider(desk, {axis, true}, width);
+        world_line(desk, axis);
     }
     ImGui::BeginDisabled(!desk.wish.crop);
     if (ImGui::Button("Show the whole cube", {-FLT_MIN, 0})) {

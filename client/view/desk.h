@@ -61,7 +61,7 @@ struct Desk {
     Shown shown;                // how a pair of pictures is shown; none: one picture is wanted
     view::StereoSettings eyes;  // of the pair
     bool reshown = false;       // the picture is to be made anew
-    bool boxed = false;         // the cube's edges are over the picture
+    bool boxed = false;         // the cube's edges are over the picture, with scales
     bool cropping = false;      // the box's edges and handles are over the picture
     struct CropDrag {
         model::BoxFace face;
@@ -115,8 +115,10 @@ struct Desk {
     }
     float px(float nominal) const { return nominal * scale; }
     bool has_cube() const { return status.cube.has_value(); }
-    void say(std::string words, bool is_bad = false) {
-        saying = {base::printable(words, 300), is_bad, ImGui::GetTime() + (is_bad ? 12 : 5)};
+    void say(const std::string& words, bool is_bad = false) { tell(base::printable(words, 300), is_bad); }
+    // What can be shown as it is.
+    void tell(std::string words, bool is_bad = false) {
+        saying = {std::move(words), is_bad, ImGui::GetTime() + (is_bad ? 12 : 5)};
     }
     // The viewpoint, to be changed by hand now.
     model::Viewpoint& steer() {

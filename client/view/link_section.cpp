@@ -57,7 +57,7 @@ constexpr HelpLine help_lines[] = {
     {"Ctrl Z, Ctrl Y", "undo, redo"},
     {"Ctrl S, Ctrl O", "save, open the session"},
     {"Ctrl P", "save the picture, with its session"},
-    {"B", "hide or show the cube's edges"},
+    {"B", "the cube's edges, with coordinates"},
     {"E", "hide or show the editor"},
     {"Ctrl drag on the plot", "snap to edges and round values"},
     {"Delete", "delete the selected pin"},

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "client/view/widgets.h"
+#include "common/wcs/text.h"
 
 namespace shearwater::ui {
 
@@ -215,6 +216,13 @@ void navigate_on(Desk& desk, const Window& window) {
     }
 }
 
+std::string place_text(const Desk& desk, const view::Vec3& voxel, const char* between) {
+    std::string words = fmt::format("voxel {:.0f} {:.0f} {:.0f}", voxel.x, voxel.y, voxel.z);
+    const std::string world =
+        wcs::place_text(*desk.status.cube->world, desk.lattice().n, {voxel.x, voxel.y, voxel.z});
+    return world.empty() ? words : words + between + world;
+}
+
 void draw_reading(const Desk& desk) {
     if (!desk.read || !desk.has_cube()) {
         return;
@@ -224,7 +232,7 @@ void draw_reading(const Desk& desk) {
     if (picked.hit) {
         const view::Vec3& voxel = picked.hit->voxel;
         const std::string unit = desk.status.cube->unit.empty() ? "" : " " + desk.status.cube->unit;
-        words = fmt::format("voxel {:.0f} {:.0f} {:.0f}\n{}", voxel.x, voxel.y, voxel.z,
+        words = fmt::format("{}\n{}", place_text(desk, voxel, "\n"),
                             std::isfinite(picked.value) ? fmt::format("{:.6g}{}", picked.value, unit)
                                                         : std::string("no value"));
     }

@@ -12,6 +12,8 @@ void navigate_by_mouse(Desk& desk, const std::vector<EyeArea>& areas, ImVec2 fro
 bool navigate_by_key(Desk& desk, const KeyPress& press);
 // The time that passed since the last pass: keys that are held while flying, and jumps under way.
 void navigate_on(Desk& desk, const Window& window);
+// Of a voxel in the cube: its indices, and what the header says of it, if anything.
+std::string place_text(const Desk& desk, const view::Vec3& voxel, const char* between);
 // Beside the mouse, what is known of the voxel under it.
 void draw_reading(const Desk& desk);
 

@@ -8,6 +8,7 @@
 #include "client/view/axes.h"
 #include "client/view/box_edges.h"
 #include "client/view/crop_handles.h"
+#include "client/view/edge_scales.h"
 #include "client/view/navigation.h"
 #include "client/view/notices.h"
 #include "client/view/widgets.h"
@@ -58,7 +59,7 @@ void draw_picture(const Desk& desk, ImVec2 from, ImVec2 size) {
 }
 
 // What is drawn over each picture that is one eye's alone.
-void over_pictures(Desk& desk, const std::vector<EyeArea>& areas) {
+void over_pictures(Desk& desk, const std::vector<EyeArea>& areas, const EyeArea& axes) {
     if (!desk.has_cube() || desk.picture.empty()) {
         return;
     }
@@ -68,6 +69,9 @@ void over_pictures(Desk& desk, const std::vector<EyeArea>& areas) {
         draw_missing(desk, areas[n], eyes[n]);
         if (desk.boxed || desk.cropping) {
             draw_box_edges(desk, areas[n], eyes[n]);
+        }
+        if (desk.boxed) {
+            draw_edge_scales(desk, areas[n], eyes[n], axes, n == 0);
         }
         if (desk.cropping) {
             crop_handles(desk, areas[n], eyes[n], static_cast<int>(n));
@@ -140,12 +144,12 @@ void picture_area(Desk& desk, ImVec2 from, ImVec2 size) {
     ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::backdrop);
     ImGui::Begin("picture area", nullptr, bare | ImGuiWindowFlags_NoScrollWithMouse);
     draw_picture(desk, from, size);
-    over_pictures(desk, areas);
+    const EyeArea axes = axes_area(desk, from, size);
+    over_pictures(desk, areas, axes);
     navigate_by_mouse(desk, areas, from, size);
     draw_reading(desk);
     if (!desk.picture.empty()) {
-        const float inset = desk.px(axes_radius + 14);
-        draw_axes(desk, {from.x + inset, from.y + size.y - inset});
+        draw_axes(desk, axes);
     }
     notices(desk, from, size);
     ImGui::End();

@@ -11,6 +11,7 @@
 #include "common/fits/plain_pixels.h"
 #include "common/fits/survey.h"
 #include "common/fits/tiled_pixels.h"
+#include "common/fits/world.h"
 
 namespace shearwater::fits {
 
@@ -96,6 +97,10 @@ base::Result<Cube> Cube::open(const std::string& path, const OpenOptions& option
     }
     auto file = std::make_unique<File>(
         File{.bytes = std::move(*bytes), .info = describe(path, *survey, *axes), .stop = options.stop});
+    if (options.world) {
+        const Hdu& hdu = survey->cube;
+        file->info.world = read_world(hdu.header, hdu.axes, *axes, file->info.notes);
+    }
     const auto encoding = read_encoding(survey->cube, operation, file->info.notes);
     if (!encoding) {
         return encoding.error();

@@ -12,12 +12,14 @@
 #include "common/base/result.h"
 #include "common/volume/box.h"
 #include "common/volume/source.h"
+#include "common/wcs/axis.h"
 
 namespace shearwater::fits {
 
 struct OpenOptions {
     std::optional<int> hdu;             // 0 is the primary; unset: the first that holds a cube
     std::optional<std::int64_t> plane;  // index along a fourth axis longer than 1; unset: 0, with a note
+    bool world = false;                 // the axes' world coordinates are wanted too
     std::stop_token stop;               // once requested, opening and reading end as cancelled
 };
 
@@ -31,6 +33,7 @@ struct CubeInfo {
     std::int64_t planes = 1;                // its length
     std::string object, unit;               // printable
     std::array<std::string, 3> axis_types;  // CTYPE, printable
+    wcs::Axes world;                        // unknown where they were not asked for
     // What was repaired, assumed or left out, a sentence each, for the person.
     std::vector<std::string> notes;
 };

@@ -1,5 +1,7 @@
 #include "server/head/head.h"
 
+#include "protocol/wire/convert_world.h"
+
 namespace shearwater::head {
 
 namespace pb = wire::pb;
@@ -130,6 +132,7 @@ void Head::describe_cube(wire::LinkId client, Effects& effects) const {
     if (values_) {
         *description.mutable_values() = *values_;
     }
+    wire::put(cube.world, *description.mutable_axes());
     effects.net.emplace_back(wire::Send{client, wire::message(std::move(description))});
 }
 

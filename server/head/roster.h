@@ -9,6 +9,7 @@
 #include "common/tree/plan.h"
 #include "common/view/geometry.h"
 #include "common/volume/mapping.h"
+#include "common/wcs/axis.h"
 #include "protocol/wire/events.h"
 
 namespace shearwater::head {
@@ -23,6 +24,7 @@ struct CubeFacts {
     std::int64_t plane = 0;
     view::Lattice lattice;
     int sketch_level = 0;  // of the sketch that is drawn until all is loaded (volume::sketch_level); 0: none
+    wcs::Axes world;       // of its axes
 };
 
 class Roster {

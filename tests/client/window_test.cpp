@@ -40,6 +40,18 @@ TEST_F(WindowTest, MouseAndKeysChangeThePicture) {
     EXPECT_NEAR(light_of(parallel).spread, at_first.spread, at_first.spread * 0.2);
     display_->key("p");
     like(first, "perspective again");
+
+    // The cube's edges, with what its header says along them.
+    display_->key("b");
+    other_than(first, "the edges and their scales");
+    const std::string scales = text_of(folder_ / "controls");
+    for (const char* label : {"scale/RA/10h00m", "scale/RA/right ascension", "scale/Dec/+30\u00b0",
+                              "scale/Dec/declination", "scale/Vel/radio velocity (km/s)"}) {
+        EXPECT_NE(scales.find(label), std::string::npos) << label << " is not among\n" << scales;
+    }
+    click("camera/boxed");
+    like(first, "no edges");
+    EXPECT_EQ(text_of(folder_ / "controls").find("scale/"), std::string::npos);
 }
 
 // Of this cube every sample counts, so that a high picture takes a while on any machine.

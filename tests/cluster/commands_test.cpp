@@ -132,6 +132,18 @@ TEST_F(Commands, ACubeByFormulaIsDrawnLikeTheFileOfIt) {
     EXPECT_NE(info.out.find("40 x 34 x 29"), std::string::npos) << info.out;
 }
 
+TEST_F(Commands, InfoSaysWhatIsMeasuredAlongEachAxis) {
+    ASSERT_EQ(run("sample hi-galaxy --size 33 33 21 -o " + cube_).status, 0);
+    const Outcome info = run("info " + cube_);
+    EXPECT_EQ(info.status, 0);
+    // Right ascension falls, declination rises about 30 degrees, velocities about the galaxy's.
+    for (const char* line : {"  x         right ascension, 10h0[0-9hms.]+ to 09h5[0-9hms.]+\n",
+                             "  y         declination, \\+29\u00b0[0-9'.]+\" to \\+30\u00b0[0-9'.]+\"\n",
+                             "  z         radio velocity, -?[0-9.]+ km/s to [0-9.]+ km/s\n"}) {
+        EXPECT_TRUE(std::regex_search(info.out, std::regex(line))) << line << info.out;
+    }
+}
+
 TEST_F(Commands, SnapshotReportsInJson) {
     for (const std::string tree : {"1,1", "2,3"}) {
         const Outcome outcome =

@@ -66,12 +66,15 @@ void fuzz(const FitsImage& image, int trials, unsigned seed) {
             mutate(bytes, header_bytes, random);
         }
         support::spill(path, bytes);
-        auto cube = Cube::open(path);
+        auto cube = Cube::open(path, {.world = true});
         if (!cube) {
             EXPECT_FALSE(cube.error().detail.empty());
             continue;
         }
         ++opened;
+        for (int along = 0; along < 3; ++along) {
+            EXPECT_TRUE(wcs::validate(cube->info().world[static_cast<std::size_t>(along)], along));
+        }
         const volume::Index3 n = cube->info().n;
         ASSERT_LE(volume::voxel_count(n), static_cast<std::int64_t>(bytes.size() * 20000));
         if (volume::voxel_count(n) < 1 << 22) {
@@ -88,7 +91,8 @@ FitsImage counting(int bitpix) {
     std::iota(image.raw.begin(), image.raw.end(), 0);
     image.scale = 2;
     image.zero = 1;
-    image.texts = {{"CTYPE1", "RA---SIN"}, {"OBJECT", "fuzz"}};
+    image.texts = {{"CTYPE1", "RA---SIN"}, {"CTYPE2", "DEC--SIN"}, {"CTYPE3", "VELO-LSR"},
+                   {"CUNIT1", "deg"},      {"CUNIT3", "km/s"},     {"OBJECT", "fuzz"}};
     return image;
 }
 

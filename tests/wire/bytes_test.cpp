@@ -258,6 +258,29 @@ TEST(Bytes, OfWhatTheEditorShowsAndMakes) {
     EXPECT_EQ(view.size(), of(editor[1]).size() + 2 * (10 + 10));
 }
 
+// What world coordinates add at a description's end, axis by axis.
+TEST(Bytes, OfWorldCoordinates) {
+    const std::vector<Message> plain = examples();
+    const std::string described = body_of(world_examples().at(0));
+    const std::string before = body_of(*std::ranges::find_if(plain, [](const Message& message) {
+        return std::holds_alternative<pb::CubeDescription>(message.body);
+    }));
+    EXPECT_EQ(described.substr(0, before.size()), before);
+    EXPECT_EQ(described.substr(before.size(), 66),
+              "c20255"                              // 40: 85 bytes
+              "0a0f726967687420617363656e73696f6e"  // name, label, unit
+              "12025241"
+              "1a03646567"
+              "20012801");  // hours, a circle
+    EXPECT_EQ(described.substr(described.size() - 2 * 53),
+              "c20232"
+              "0a0e726164696f2076656c6f63697479"
+              "120356656c"
+              "1a046b6d2f73"
+              "3203010102"                              // nodes
+              "3a1000000000000059c00000000000005940");  // values
+}
+
 // And what pre-integrated classification does, of a view and of a factorisation.
 TEST(Bytes, OfPreIntegratedClassification) {
     constexpr std::size_t header_digits = 2 * header_bytes;

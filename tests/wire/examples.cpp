@@ -359,12 +359,21 @@ std::vector<Message> stereo_examples() {
     return {message(to_wire(view)), message(drawn), message(pair, bytes({9, 8, 7}))};
 }
 
+std::vector<Message> world_examples() {
+    pb::CubeDescription described = cube_description();
+    put(world_axes(), *described.mutable_axes());
+    return {message(described)};
+}
+
 std::vector<Message> all_examples() {
     std::vector<Message> all = examples();
     for (Message& message : editor_examples()) {
         all.push_back(std::move(message));
     }
     for (Message& message : stereo_examples()) {
+        all.push_back(std::move(message));
+    }
+    for (Message& message : world_examples()) {
         all.push_back(std::move(message));
     }
     for (Message& message : culling_examples()) {
@@ -411,6 +420,27 @@ volume::Summary summary() {
         s.quantiles.push_back(-2 + 6 * volume::Summary::share_of(i));
     }
     return s;
+}
+
+wcs::Axes world_axes() {
+    return {wcs::Axis{.name = "right ascension",
+                      .label = "RA",
+                      .unit = "deg",
+                      .notation = wcs::Notation::hours,
+                      .circle = true,
+                      .nodes = {3, 2, 1},
+                      .values = {1, 0.5, 0, 1.25, 0.5, 359.75}},
+            {.name = "declination",
+             .label = "Dec",
+             .unit = "deg",
+             .notation = wcs::Notation::degrees,
+             .nodes = {1, 2, 1},
+             .values = {-30, -29.5}},
+            {.name = "radio velocity",
+             .label = "Vel",
+             .unit = "km/s",
+             .nodes = {1, 1, 2},
+             .values = {-100, 100}}};
 }
 
 culling::FunctionKey function_key() {

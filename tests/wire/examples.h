@@ -8,6 +8,7 @@
 #include "protocol/wire/convert.h"
 #include "protocol/wire/convert_culling.h"
 #include "protocol/wire/convert_pick.h"
+#include "protocol/wire/convert_world.h"
 #include "protocol/wire/message.h"
 
 namespace shearwater::wire::test {
@@ -22,11 +23,14 @@ std::vector<Message> culling_examples();
 std::vector<Message> editor_examples();
 // Of those that have to do with pairs of pictures, and with crops.
 std::vector<Message> stereo_examples();
+// Of the one that has to do with world coordinates.
+std::vector<Message> world_examples();
 std::vector<Message> all_examples();  // all of them
 
 view::TransferFunction transfer_function();
 view::Factorisation factorisation();  // of two faces, 5 x 4 and 3 x 2 pixels
 volume::Summary summary();
+wcs::Axes world_axes();  // right ascension on a grid, declination, velocity
 culling::FunctionKey function_key();
 View view_request();
 PickRequest pick_request();

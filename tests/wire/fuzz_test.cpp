@@ -106,6 +106,11 @@ void convert(const Body& body) {
         if (const auto from = summary_from(described->values())) {
             EXPECT_TRUE(volume::validate(*from));
         }
+        if (const auto from = axes_from(described->axes())) {
+            for (int along = 0; along < 3; ++along) {
+                EXPECT_TRUE(wcs::validate((*from)[static_cast<std::size_t>(along)], along));
+            }
+        }
     } else if (const auto* report = std::get_if<pb::HistogramReport>(&body)) {
         if (const auto from = histogram_from(*report)) {
             EXPECT_LE(from->min(), from->max());
