@@ -70,6 +70,10 @@ struct Desk {
     std::optional<CropDrag> crop_drag;  // the face that is held
     bool dragging = false;              // something is held down while it changes the wish
     bool retry = false;                 // asked to dial now
+    bool connect_elsewhere = false;     // asked for the connection dialog in this pass
+    bool cancel = false;                // asked in this pass to wait no longer
+    bool in_dialog = false;             // the connection dialog is over everything, and has the keys
+    std::string waiting_note;           // what else there is to know while a link is waited for
     bool escape = false;                // the key was pressed in this pass
     bool panel = true;
     bool dock = true;
