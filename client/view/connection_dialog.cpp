@@ -50,9 +50,11 @@ void wrapped(ImU32 colour, const std::string& words) {
 bool field(Desk& desk, const char* id, const char* hint, std::span<char> bytes, ImGuiInputTextFlags flags,
            const char* control) {
     ImGui::SetNextItemWidth(-FLT_MIN);
+    ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 1);
     const bool entered = ImGui::InputTextWithHint(
         id, hint, bytes.data(), bytes.size(),
         flags | ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    ImGui::PopStyleVar();
     desk.controls.note(control);
     return entered;
 }
@@ -147,6 +149,7 @@ ConnectionDialog::Wish ConnectionDialog::draw_content(Desk& desk, std::span<cons
     if (!fault_.empty()) {
         ImGui::Dummy({0, desk.px(2)});
         wrapped(theme::bad, fault_);
+        desk.controls.note("connect/fault");
         wrapped(theme::muted, advice_);
     }
     ImGui::Dummy({0, desk.px(4)});
@@ -193,13 +196,13 @@ bool ConnectionDialog::place_field(Desk& desk) {
         text(theme::muted, model::in_words(*read_));
     } else {
         constexpr std::pair<const char*, const char*> examples[] = {
-            {"/data/galaxy.fits", "a FITS cube on this machine; it can be dropped on the window, too"},
+            {"/data/galaxy.fits", "a FITS cube on this machine, or dropped on the window"},
             {"big.example.org:7500", "a server that runs there"},
             {"ann@big.example.org:/data/galaxy.fits", "a cube on another machine, by ssh"},
         };
         for (const auto& [place, what] : examples) {
             text(theme::text, place);
-            ImGui::SameLine(desk.px(280));
+            ImGui::SameLine(desk.px(272));
             text(theme::muted, what);
         }
     }
