@@ -27,10 +27,14 @@ std::string why_unreachable(const wire::LinkDown& down, const std::string& addre
 }
 
 // What became of a link, and what to do about it. Of a command these are its own words.
-std::string words_for(const wire::LinkDown& down, const wire::Route& server, const std::string& name) {
+std::string words_for(const wire::LinkDown& down, const wire::Route& server, const std::string& name,
+                      bool has_been_up) {
     if (!server.command.empty() &&
         (down.reason == pb::REASON_UNREACHABLE || down.reason == pb::REASON_LOST)) {
         return base::printable(down.text, 500);
+    }
+    if (!has_been_up && (down.reason == pb::REASON_TIMED_OUT || down.reason == pb::REASON_LOST)) {
+        return name + " answers, but not as a Shearwater server does. Is that its port?";
     }
     switch (down.reason) {
         case pb::REASON_BAD_SECRET:
@@ -119,7 +123,7 @@ void Session::on_up() {
 
 void Session::on_down(const wire::LinkDown& down, wire::Time now) {
     linked_ = false;
-    wait(words_for(down, server_, name_), now);
+    wait(words_for(down, server_, name_, has_been_up_), now);
     if (is_final(down.reason) || (redial_ == Redial::once_linked && !has_been_up_)) {
         connection_ = Connection::refused;
     }

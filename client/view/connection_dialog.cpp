@@ -42,9 +42,11 @@ std::string shortened(const std::string& name, float room) {
 }
 
 void wrapped(ImU32 colour, const std::string& words) {
-    ImGui::PushTextWrapPos(0);
-    text(colour, words);
-    ImGui::PopTextWrapPos();
+    if (!words.empty()) {
+        ImGui::PushTextWrapPos(0);
+        text(colour, words);
+        ImGui::PopTextWrapPos();
+    }
 }
 
 bool field(Desk& desk, const char* id, const char* hint, std::span<char> bytes, ImGuiInputTextFlags flags,
@@ -123,8 +125,9 @@ ConnectionDialog::Wish ConnectionDialog::draw(Desk& desk, std::span<const model:
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {desk.px(22), desk.px(18)});
     Wish wish;
     if (ImGui::BeginPopupModal(title, nullptr,
-                               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav)) {
+                               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                   ImGuiWindowFlags_NoNav)) {
         wish = draw_content(desk, recent, remark, may_close);
         if (wish.connect || wish.close) {
             ImGui::CloseCurrentPopup();
@@ -143,7 +146,7 @@ ConnectionDialog::Wish ConnectionDialog::draw_content(Desk& desk, std::span<cons
     ImGui::PopFont();
     ImGui::Dummy({0, desk.px(2)});
     bool connect = place_field(desk);
-    if (read_ && read_->kind == model::Place::Kind::server) {
+    if (is_server()) {
         connect = secret_field(desk) || connect;
     }
     if (!fault_.empty()) {
@@ -181,7 +184,7 @@ ConnectionDialog::Wish ConnectionDialog::draw_content(Desk& desk, std::span<cons
 
 // Whether the enter key was pressed in it.
 bool ConnectionDialog::place_field(Desk& desk) {
-    if (appearing_) {
+    if (appearing_ && !asks_for_secret()) {
         ImGui::SetKeyboardFocusHere();
     }
     const std::string before = place_.data();
@@ -196,7 +199,7 @@ bool ConnectionDialog::place_field(Desk& desk) {
         text(theme::muted, model::in_words(*read_));
     } else {
         constexpr std::pair<const char*, const char*> examples[] = {
-            {"/data/galaxy.fits", "a FITS cube on this machine, or dropped on the window"},
+            {"/data/galaxy.fits", "a FITS cube here, or dropped on the window"},
             {"big.example.org:7500", "a server that runs there"},
             {"ann@big.example.org:/data/galaxy.fits", "a cube on another machine, by ssh"},
         };
@@ -220,6 +223,9 @@ bool ConnectionDialog::secret_field(Desk& desk) {
     if (secret_by_ == SecretBy::file) {
         return field(desk, "##secret file", "a file of mode 0600, as \"shearwater serve\" names it",
                      secret_file_, 0, "connect/secret file");
+    }
+    if (appearing_ && asks_for_secret()) {
+        ImGui::SetKeyboardFocusHere();
     }
     return field(desk, "##secret", "it is neither shown nor kept", secret_, ImGuiInputTextFlags_Password,
                  "connect/secret");

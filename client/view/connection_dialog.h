@@ -47,6 +47,9 @@ class ConnectionDialog {
     bool secret_field(Desk& desk);
     void recent_rows(Desk& desk, std::span<const model::Recent> recent, Wish& wish);
     void classify();
+    bool is_server() const { return read_ && read_->kind == model::Place::Kind::server; }
+    // The keys go there first when it is the secret that is missing or wrong, as far as can be told.
+    bool asks_for_secret() const { return is_server() && !fault_.empty() && secret_by_ == SecretBy::typing; }
 
     bool open_ = false;
     bool appearing_ = false;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "client/view/progress_card.h"
 #include "client/view/widgets.h"
 
 namespace shearwater::ui {
@@ -36,9 +37,8 @@ std::optional<Notice> banner_for(const Desk& desk) {
         case Connection::refused:
             return Notice{theme::bad, "Refused", status.words};
         case Connection::waiting:
-            return Notice{theme::busy,
-                          fmt::format("Connecting again in {:.0f} s", std::ceil(status.retry_in)),
-                          status.words};
+            return desk.picture.empty() ? std::nullopt
+                                        : std::optional(Notice{theme::busy, again_in(status), status.words});
         case Connection::connecting:
             return desk.picture.empty() ? std::nullopt
                                         : std::optional(Notice{theme::busy, "Connecting", status.words});

@@ -26,7 +26,7 @@ std::optional<Progress> progress_for(const Desk& desk) {
         return Progress{"Connecting", status.words, desk.waiting_note, -1};
     }
     if (status.connection == Connection::waiting && desk.picture.empty()) {
-        return Progress{"Not connected yet", status.words, "", -1};
+        return Progress{again_in(status), status.words, "", -1};
     }
     if (status.connection != Connection::connected) {
         return std::nullopt;
@@ -73,6 +73,10 @@ void wrapped(const Desk& desk, const std::string& words) {
 }
 
 }  // namespace
+
+std::string again_in(const model::Status& status) {
+    return fmt::format("Connecting again in {:.0f} s", std::ceil(status.retry_in));
+}
 
 void progress_card(Desk& desk, ImVec2 from, ImVec2 size) {
     const auto progress = progress_for(desk);

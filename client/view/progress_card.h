@@ -8,4 +8,7 @@ namespace shearwater::ui {
 // In the middle of that area, while there is something.
 void progress_card(Desk& desk, ImVec2 from, ImVec2 size);
 
+// "Connecting again in 3 s".
+std::string again_in(const model::Status& status);
+
 }  // namespace shearwater::ui

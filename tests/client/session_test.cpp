@@ -255,6 +255,9 @@ TEST_F(SessionTest, SaysWhyNoServerAnswers) {
     down(pb::REASON_UNREACHABLE, "host:4000: Connection refused");
     EXPECT_THAT(status().words, HasSubstr("at host:4000 (Connection refused). Is it running"));
     pass(1s);
+    down(pb::REASON_TIMED_OUT, "the handshake took too long");
+    EXPECT_THAT(status().words, HasSubstr("not as a Shearwater server"));
+    pass(1s);
     down(pb::REASON_BAD_SECRET);
     EXPECT_EQ(status().connection, Connection::refused);
     EXPECT_THAT(status().words, HasSubstr("secret is not the one that host:4000 has"));
