@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "client/view/app.h"
+#include "client/view/viewer.h"
 #include "common/options/drawing_options.h"
 #include "common/scene/file.h"
 
@@ -17,7 +17,7 @@ constexpr int unusable = 2;
 
 struct Options {
     std::vector<std::string> command;
-    std::string connect, secret_file, screenshot, controls, session;
+    std::string connect, place, secret_file, screenshot, controls, session;
     std::string size = "1280x800";
     options::DrawingOptions drawing;
     ui::WindowOptions window;
@@ -34,9 +34,13 @@ std::string check_size(const std::string& text) {
 
 void declare(CLI::App& app, Options& options) {
     auto* const connect = app.add_option("--connect", options.connect, "The server, HOST:PORT");
-    app.add_option("command", options.command,
-                   "Behind --: instead, the words of a program whose standard streams lead to a server")
-        ->excludes(connect);
+    auto* const command =
+        app.add_option("command", options.command,
+                       "Behind --: instead, the words of a program whose standard streams lead to a server")
+            ->excludes(connect);
+    app.add_option("--place", options.place,
+                   "What that command leads to, as it can be typed into the connection dialog")
+        ->needs(command);
     app.add_option(
         "--secret-file", options.secret_file,
         fmt::format("A file of mode 0600 with the server's secret; else ${}", link::Secret::variable));
@@ -55,12 +59,11 @@ void declare(CLI::App& app, Options& options) {
                    "Keep in this file where each control is, for scripts: NAME X Y WIDTH HEIGHT");
     app.add_option("--screenshot", options.screenshot,
                    "Write the window to this PNG file once the first whole picture is seen, and end");
+    app.footer("With neither a server nor a command the window asks where the cube is.");
 }
 
-base::Result<wire::Route> route_of(const Options& options) {
-    if (!options.command.empty()) {
-        return wire::Route(options.command);
-    }
+// A server that runs: until it answers it is dialled again, since it may have been started with the window.
+base::Result<ui::Connecting> by_address(const Options& options) {
     const auto address = wire::parse_address(options.connect, 0);
     if (!address) {
         return address.error();
@@ -69,12 +72,51 @@ base::Result<wire::Route> route_of(const Options& options) {
         return base::error(base::Code::invalid_argument, "address '" + options.connect + "'",
                            "the port is missing");
     }
-    return wire::Route(*address);
+    auto secret = link::Secret::find(options.secret_file);
+    if (!secret) {
+        return secret.error();
+    }
+    ui::Connecting to = ui::connecting_to({.kind = model::Place::Kind::server,
+                                           .name = wire::to_string(*address),
+                                           .address = *address,
+                                           .there = {}},
+                                          *std::move(secret), options.secret_file);
+    to.redial = model::Redial::always;
+    return to;
 }
 
 // A server that a command starts is told a secret of its own.
-base::Result<link::Secret> secret_of(const Options& options) {
-    return options.command.empty() ? link::Secret::find(options.secret_file) : link::Secret::random();
+base::Result<ui::Connecting> by_command(const Options& options) {
+    ui::Connecting to{.route = wire::Route(options.command),
+                      .redial = model::Redial::once_linked,
+                      .secret = link::Secret::random(),
+                      .recent = {},
+                      .note = {},
+                      .advice = {}};
+    if (!options.place.empty()) {
+        const auto place = model::place_from(options.place, ui::here());
+        if (!place) {
+            return place.error();
+        }
+        to = ui::connecting_to(*place, to.secret, "");
+        to.route = wire::Route(options.command);
+    }
+    return to;
+}
+
+base::Result<std::optional<ui::Connecting>> first_server(const Options& options) {
+    if (options.command.empty() && options.connect.empty()) {
+        if (!options.screenshot.empty()) {
+            return base::error(base::Code::invalid_argument, "--screenshot",
+                               "name a server to take it of, or a command");
+        }
+        return std::optional<ui::Connecting>();
+    }
+    auto to = options.command.empty() ? by_address(options) : by_command(options);
+    if (!to) {
+        return to.error();
+    }
+    return std::optional(*std::move(to));
 }
 
 base::Status run(Options options) {
@@ -83,13 +125,9 @@ base::Status run(Options options) {
     if (!tf) {
         return tf.error();
     }
-    const auto server = route_of(options);
-    if (!server) {
-        return server.error();
-    }
-    auto secret = secret_of(options);
-    if (!secret) {
-        return secret.error();
+    auto first = first_server(options);
+    if (!first) {
+        return first.error();
     }
     std::optional<scene::Scene> scene;
     if (!options.session.empty()) {
@@ -103,25 +141,25 @@ base::Status run(Options options) {
     if (!window) {
         return window.error();
     }
-    ui::Network network(*server, std::move(*secret), ui::Window::wake);
-    ui::App app(**window, network,
-                {.tf = std::move(*tf),
-                 .level_of_detail = options.drawing.level_of_detail(),
-                 .classify = options.drawing.classification(),
-                 .culling = options.drawing.culling_settings(),
-                 .effort = options.effort,
-                 .scene = std::move(scene),
-                 .session = options.session,
-                 .controls = options.controls,
-                 .screenshot = options.screenshot});
-    return app.run();
+    ui::Viewer viewer(**window,
+                      {.app = {.tf = std::move(*tf),
+                               .level_of_detail = options.drawing.level_of_detail(),
+                               .classify = options.drawing.classification(),
+                               .culling = options.drawing.culling_settings(),
+                               .effort = options.effort,
+                               .scene = std::move(scene),
+                               .session = options.session},
+                       .controls = options.controls,
+                       .screenshot = options.screenshot},
+                      *std::move(first));
+    return viewer.run();
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     Options options;
-    CLI::App app("The window on a running Shearwater server", "shearwater-client");
+    CLI::App app("The window on a Shearwater server", "shearwater-client");
     declare(app, options);
     try {
         app.parse(argc, argv);

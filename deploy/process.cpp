@@ -7,21 +7,15 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <thread>
 
+#include "common/base/own_program.h"
 #include "deploy/local_tree.h"
 
 namespace shearwater::deploy {
 namespace {
 
 using namespace std::chrono_literals;
-
-std::string beside_us(const std::string& program) {
-    std::error_code failed;
-    const auto self = std::filesystem::read_symlink("/proc/self/exe", failed);
-    return failed ? program : (self.parent_path() / program).string();
-}
 
 // What runs between fork and exec: only calls that are safe there.
 [[noreturn]] void become(const char* path, char* const* arguments, char* const* environment, int out,
@@ -64,7 +58,7 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
 
 base::Result<Process> Process::start(const std::string& program, const std::vector<std::string>& arguments,
                                      const link::Secret& secret, int out) {
-    const std::string path = beside_us(program);
+    const std::string path = base::beside_this_program(program);
     if (access(path.c_str(), X_OK) != 0) {
         return base::error(base::Code::not_found, "start " + program, path + ": " + std::strerror(errno));
     }

@@ -38,9 +38,9 @@ base::Result<Target> open_target(const TargetOptions& options, const std::string
         }
         return Target{.server = *server, .secret = chosen->secret, .tree = {}};
     }
-    if (const auto there = remote_cube(options.cube.path)) {
+    if (remote_cube(options.cube.path)) {
         return Target{
-            .server = wire::Route(serving_command(*there, options)), .secret = chosen->secret, .tree = {}};
+            .server = wire::Route(serving_command(options, "warn")), .secret = chosen->secret, .tree = {}};
     }
     auto tree = LocalTree::start(
         {.cube = options.cube, .tree = options.tree, .threads = options.threads, .log_level = log_level},

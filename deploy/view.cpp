@@ -1,11 +1,15 @@
-#include <CLI/CLI.hpp>
-#include <optional>
+#include <unistd.h>
 
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
+
+#include "common/base/own_program.h"
+#include "common/cube/open.h"
 #include "common/options/drawing_options.h"
 #include "common/scene/file.h"
 #include "deploy/commands.h"
 #include "deploy/target.h"
-#include "protocol/daemon/runtime.h"
 
 namespace shearwater::deploy {
 namespace {
@@ -19,56 +23,77 @@ struct ViewFlags {
     std::string session;
 };
 
-// Starts the window and waits until it closes; a local tree is kept alive meanwhile.
-base::Result<int> view(const ViewFlags& flags) {
-    if (const auto valid = flags.target.validate(); !valid) {
-        return valid.error();
+// What can be told before there is a window to say it.
+base::Status check(const ViewFlags& flags) {
+    const options::CubeOptions& cube = flags.target.cube;
+    if (!cube.path.empty() || !flags.target.connect.empty()) {
+        if (auto valid = flags.target.validate(); !valid) {
+            return valid;
+        }
     }
-    if (!flags.session.empty()) {  // before a tree is started for it
+    if (!flags.session.empty()) {
         if (const auto readable = scene::read(flags.session); !readable) {
             return readable.error();
         }
     }
-    auto target = open_target(flags.target, "info");
-    if (!target) {
-        return target.error();
+    if (cube.path.empty()) {
+        return {};
     }
+    if (const auto topology = flags.target.tree.topology(); !topology) {
+        return topology.error();
+    }
+    if (!remote_cube(cube.path)) {
+        if (const auto opened = cube::open(cube.path, cube.open_options()); !opened) {
+            return opened.error();
+        }
+    }
+    return {};
+}
+
+// The window's: it starts the tree of its cube itself, so that the one ends with the other. Nothing named: it
+// asks.
+std::vector<std::string> arguments_of(const ViewFlags& flags) {
+    const TargetOptions& target = flags.target;
     std::vector<std::string> arguments;
-    if (target->server.command.empty()) {
-        arguments = {"--connect", wire::to_string(target->server)};
+    const auto add = [&](const std::vector<std::string>& more) {
+        arguments.insert(arguments.end(), more.begin(), more.end());
+    };
+    if (!target.connect.empty()) {
+        add({"--connect", target.connect});
+    }
+    if (!target.secret_file.empty()) {
+        add({"--secret-file", target.secret_file});
     }
     if (flags.session.empty()) {
-        const std::vector<std::string> drawing = flags.drawing.arguments();
-        arguments.insert(arguments.end(), drawing.begin(), drawing.end());
-        arguments.insert(arguments.end(), {"--target-rate", std::to_string(flags.target_rate)});
+        add(flags.drawing.arguments());
+        add({"--target-rate", std::to_string(flags.target_rate)});
     } else {
-        arguments.insert(arguments.end(), {"--session", flags.session});
+        add({"--session", flags.session});
     }
-    if (!target->server.command.empty()) {
-        arguments.emplace_back("--");
-        arguments.insert(arguments.end(), target->server.command.begin(), target->server.command.end());
+    if (!target.cube.path.empty()) {
+        add({"--place", target.cube.path, "--"});
+        add(serving_command(target, "info"));
     }
-    auto window = Process::start("shearwater-client", arguments, target->secret);
-    if (!window) {
-        return window.error();
+    return arguments;
+}
+
+// Becomes the window; comes back only when it cannot.
+base::Status view(const ViewFlags& flags) {
+    if (auto usable = check(flags); !usable) {
+        return usable;
     }
-    bool server_gone = false;
-    std::optional<int> status;
-    std::optional<daemon::Runtime> runtime;
-    runtime.emplace(view_program, target->secret, [&](const wire::NetEvent&) {
-        status = status ? status : window->ended();
-        if (target->tree && !target->tree->keep_alive()) {
-            server_gone = true;
-        }
-        if (status || server_gone) {
-            runtime->stop(0);
-        }
-    });
-    runtime->run();
-    if (server_gone) {
-        return base::error(base::Code::io, "view", "the server process ended unexpectedly");
+    const std::string program = "shearwater-client";
+    std::vector<std::string> words{base::beside_this_program(program)};
+    const std::vector<std::string> arguments = arguments_of(flags);
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> pointers;
+    for (std::string& word : words) {
+        pointers.push_back(word.data());
     }
-    return status.value_or(0);
+    pointers.push_back(nullptr);
+    execv(pointers[0], pointers.data());
+    return base::error(errno == ENOENT ? base::Code::not_found : base::Code::io, "start " + program,
+                       std::strerror(errno));
 }
 
 }  // namespace
@@ -84,10 +109,8 @@ Run add_view(CLI::App& app) {
     said_by_session.emplace_back("--target-rate");
     options::add_session(app, flags->session, said_by_session);
     flags->target.add_to(app);
-    return [flags] {
-        const auto status = view(*flags);
-        return status ? *status : refuse(view_program, status.error());
-    };
+    app.footer("Without a cube and --connect the window asks where the cube is.");
+    return [flags] { return refuse(view_program, view(*flags).error()); };
 }
 
 }  // namespace shearwater::deploy

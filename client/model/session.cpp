@@ -18,19 +18,34 @@ bool is_final(pb::Reason reason) {
     return reason == pb::REASON_BAD_SECRET || reason == pb::REASON_BAD_VERSION;
 }
 
-std::string words_for(const wire::LinkDown& down, const wire::Route& server) {
-    const std::string where = wire::to_string(server);
+// What the system says of a dial, without the address before it.
+std::string why_unreachable(const wire::LinkDown& down, const std::string& address) {
+    const std::string before = address + ": ";
+    const std::string_view text = down.text;
+    const bool names_it = text.starts_with(before);
+    return text.empty() ? "" : " (" + base::printable(text.substr(names_it ? before.size() : 0)) + ")";
+}
+
+// What became of a link, and what to do about it. Of a command these are its own words.
+std::string words_for(const wire::LinkDown& down, const wire::Route& server, const std::string& name,
+                      bool has_been_up) {
     if (!server.command.empty() &&
         (down.reason == pb::REASON_UNREACHABLE || down.reason == pb::REASON_LOST)) {
-        return server.command[0] + ": " + base::printable(down.text);  // the program's own words
+        return base::printable(down.text, 500);
+    }
+    if (!has_been_up && (down.reason == pb::REASON_TIMED_OUT || down.reason == pb::REASON_LOST)) {
+        return name + " answers, but not as a Shearwater server does. Is that its port?";
     }
     switch (down.reason) {
         case pb::REASON_BAD_SECRET:
-            return "The secret is not the one " + where + " has. Start again with the right one.";
+            return "The secret is not the one that " + name +
+                   " has. Who serves there was told which file it is in.";
         case pb::REASON_BAD_VERSION:
-            return where + " speaks another version of the protocol.";
+            return name +
+                   " speaks another version of the protocol. Install the same Shearwater at both ends.";
         case pb::REASON_UNREACHABLE:
-            return "No server answers at " + where + ".";
+            return "No server answers at " + name + why_unreachable(down, wire::to_string(server)) +
+                   ". Is it running there, on that port?";
         case pb::REASON_SHUTDOWN:
             return "The server was stopped.";
         case pb::REASON_TIMED_OUT:
@@ -69,7 +84,7 @@ void Session::dial(wire::Time) {
     link_ = wire::LinkId{static_cast<std::uint64_t>(link_) + 1};
     linked_ = true;
     connection_ = Connection::connecting;
-    words_ = "Connecting to " + wire::to_string(server_) + " ...";
+    words_ = "Connecting to " + name_ + " ...";
     effects_.push_back(wire::Dial{link_, server_, pb::ROLE_CLIENT});
 }
 
@@ -96,7 +111,8 @@ void Session::handle(const wire::NetEvent& event, wire::Time now) {
 
 void Session::on_up() {
     connection_ = Connection::connected;
-    words_ = "Connected to " + wire::to_string(server_) + ".";
+    has_been_up_ = true;
+    words_ = "Connected to " + name_ + ".";
     described_ = false;
     sent_.clear();
     answered_ = revision_;
@@ -107,8 +123,8 @@ void Session::on_up() {
 
 void Session::on_down(const wire::LinkDown& down, wire::Time now) {
     linked_ = false;
-    wait(words_for(down, server_), now);
-    if (is_final(down.reason)) {
+    wait(words_for(down, server_, name_, has_been_up_), now);
+    if (is_final(down.reason) || (redial_ == Redial::once_linked && !has_been_up_)) {
         connection_ = Connection::refused;
     }
 }

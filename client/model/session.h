@@ -47,6 +47,12 @@ enum class Change {
     single,    // unless another was made a moment ago
 };
 
+// What a dial that came to nothing is followed by, until there has been a link.
+enum class Redial {
+    always,      // others: the server may come later
+    once_linked  // none: it is refused
+};
+
 class Session {
   public:
     // The view moves until the last change is this old.
@@ -60,7 +66,11 @@ class Session {
     // Before a view is asked for again whose picture lacked parts although the tree is whole.
     static constexpr std::chrono::milliseconds again_after{1000};
 
-    explicit Session(wire::Route server) : server_(std::move(server)) {}
+    // `name`: what a person calls the server; else its route.
+    explicit Session(wire::Route server, Redial redial = Redial::always, const std::string& name = {})
+        : server_(std::move(server)),
+          redial_(redial),
+          name_(name.empty() ? wire::to_string(server_) : base::printable(name)) {}
 
     void start(wire::Time now);
     void handle(const wire::NetEvent& event, wire::Time now);
@@ -120,6 +130,8 @@ class Session {
     bool on_link(wire::LinkId link) const { return linked_ && link == link_; }
 
     wire::Route server_;
+    Redial redial_;
+    std::string name_;
     std::vector<wire::NetEffect> effects_;
     std::optional<Picture> picture_;
     std::optional<Wish> picture_wish_;
@@ -127,6 +139,7 @@ class Session {
     // The link.
     Connection connection_ = Connection::connecting;
     std::string words_;
+    bool has_been_up_ = false;
     bool linked_ = false;  // a dial is under way or has come up
     wire::LinkId link_{0};
     std::chrono::milliseconds retry_after_ = first_retry;

@@ -88,6 +88,7 @@ struct Rates {
 };
 
 enum class Connection {
+    none,  // nobody has been dialled
     connecting,
     connected,
     waiting,  // to dial again
@@ -95,7 +96,7 @@ enum class Connection {
 };
 
 struct Status {
-    Connection connection = Connection::connecting;
+    Connection connection = Connection::none;
     std::string words;       // what became of the link, for a person
     double retry_in = 0;     // seconds, while waiting
     std::uint64_t sent = 0;  // revision of the newest view that left

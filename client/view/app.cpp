@@ -12,13 +12,13 @@
 #include "client/view/navigation.h"
 #include "client/view/panel.h"
 #include "client/view/picture_area.h"
-#include "common/image/png.h"
+#include "client/view/progress_card.h"
 
 namespace shearwater::ui {
 
-App::App(Window& window, Network& network, AppOptions options)
+App::App(Window& window, std::unique_ptr<Network> network, AppOptions options)
     : window_(window),
-      network_(network),
+      network_(std::move(network)),
       options_(std::move(options)),
       presets_(PresetFolder::of_user(), Window::wake),
       flights_(Window::wake),
@@ -32,42 +32,20 @@ App::App(Window& window, Network& network, AppOptions options)
     if (options_.scene) {
         Files::open(desk_, options_.session, *options_.scene);
     }
-    desk_.status.words = "Starting ...";
+    desk_.status.words = network_ ? "Starting ..." : "Nothing to see yet.";
 }
 
-base::Status App::run() {
-    while (!window_.is_closing()) {
-        window_.begin(patience());
-        collect();
-        widgets();
-        remember();
-        files_.attend(desk_, window_.take_drops(), desk_.seen, is_settled() && picture_wish_ == desk_.wish);
-        send_wish();
-        if (!options_.controls.empty()) {
-            if (auto written = desk_.controls.write(options_.controls); !written) {
-                return written;
-            }
-        }
-        window_.draw();
-        settled_passes_ = is_settled() ? settled_passes_ + 1 : 0;
-        constexpr int passes_to_settle = 3;
-        if (!options_.screenshot.empty() && settled_passes_ >= passes_to_settle) {
-            return image::write_png(options_.screenshot, window_.read_pixels());
-        }
-        window_.show();
-        if (!options_.screenshot.empty() && desk_.status.connection == model::Connection::refused) {
-            return base::error(base::Code::refused, "take the screenshot", desk_.status.words);
-        }
-        if (!options_.screenshot.empty() && fault_told_) {
-            return base::error(base::Code::unsupported, "take the screenshot", anchoring_.fault());
-        }
-    }
-    return {};
+void App::pass(const std::vector<std::string>& dropped) {
+    collect();
+    widgets();
+    remember();
+    files_.attend(desk_, dropped, desk_.seen, is_settled() && picture_wish_ == desk_.wish);
+    send_wish();
 }
 
 // Redraws at once while something goes on, rarely when nothing does.
 double App::patience() const {
-    const bool waits = desk_.picture.empty() || !options_.screenshot.empty();
+    const bool waits = network_ && desk_.picture.empty();
     const bool glides =
         desk_.transition.under_way() || desk_.timeline.playing() || (desk_.flying && desk_.dragging);
     return glides ? 0.01 : waits || ImGui::GetTime() < active_until_ ? 0.03 : 0.25;
@@ -75,7 +53,7 @@ double App::patience() const {
 
 void App::collect() {
     desk_.now = std::chrono::steady_clock::now();
-    Network::Mail mail = network_.collect();
+    Network::Mail mail = network_ ? network_->collect() : Network::Mail();
     if (mail.status) {
         desk_.status = std::move(*mail.status);
         if (desk_.has_cube()) {
@@ -124,6 +102,8 @@ void App::widgets() {
     desk_.controls.begin_pass();
     desk_.dragging = false;
     desk_.retry = false;
+    desk_.connect_elsewhere = false;
+    desk_.cancel = false;
     desk_.escape = false;
     if (std::exchange(desk_.reshown, false) && desk_.seen) {
         upload();
@@ -140,6 +120,7 @@ void App::widgets() {
     play_on(desk_);
     begin_editor_pass(desk_);
     picture_area(desk_, {0, 0}, picture);
+    progress_card(desk_, {0, 0}, picture);
     if (has_dock) {
         dock(desk_, {0, picture.y}, {picture.x, dock_size});
     }
@@ -159,6 +140,10 @@ void App::keys() {
 }
 
 void App::on_key(const KeyPress& press) {
+    if (desk_.in_dialog) {
+        desk_.escape = desk_.escape || press.key == GLFW_KEY_ESCAPE;
+        return;
+    }
     if (navigate_by_key(desk_, press)) {
         return;
     }
@@ -211,6 +196,9 @@ void App::on_control_key(const KeyPress& press) {
         case GLFW_KEY_O:
             desk_.files.open = true;
             break;
+        case GLFW_KEY_N:
+            desk_.connect_elsewhere = true;
+            break;
         case GLFW_KEY_P:
             desk_.files.picture = true;
             break;
@@ -257,24 +245,26 @@ void App::send_wish() {
     if (any_input) {
         active_until_ = ImGui::GetTime() + 0.3;
     }
+    desk_.wish.stereo = desk_.shown ? std::optional(desk_.eyes) : std::nullopt;
+    if (!network_) {
+        return;
+    }
     if (desk_.retry) {
-        network_.retry();
+        network_->retry();
     }
     if (desk_.effort != sent_effort_) {
         sent_effort_ = desk_.effort;
-        network_.set_effort(sent_effort_);
+        network_->set_effort(sent_effort_);
     }
-    desk_.wish.stereo = desk_.shown ? std::optional(desk_.eyes) : std::nullopt;
     if (desk_.wish != sent_) {
         sent_ = desk_.wish;
-        network_.want(sent_, desk_.dragging ? model::Change::dragging : model::Change::single);
+        network_->want(sent_, desk_.dragging ? model::Change::dragging : model::Change::single);
     }
     if (const auto pick = std::exchange(desk_.pick, std::nullopt)) {
-        network_.pick(pick->purpose, pick->at);
+        network_->pick(pick->purpose, pick->at);
     }
 }
 
-// The newest view is seen, whole and as good as it gets.
 bool App::is_settled() const {
     const model::Status& status = desk_.status;
     const view::ImageSize wanted =

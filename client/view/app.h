@@ -1,5 +1,6 @@
 #pragma once
-// The window's thread: collects what the network has, draws, and leaves wishes.
+// What a window shows of one server, on the window's thread: collects what the network has, draws, and leaves
+// wishes.
 
 #include <string>
 
@@ -19,19 +20,26 @@ struct AppOptions {
     model::Effort effort;
     std::optional<scene::Scene> scene;  // to begin with, read from:
     std::string session;
-    std::string controls;    // a file that tells where the controls are; none when empty
-    std::string screenshot;  // a file to write the window to once a whole high picture is seen; then it ends
 };
 
 class App {
   public:
-    App(Window& window, Network& network, AppOptions options);
+    // Without a network there is nothing to see.
+    App(Window& window, std::unique_ptr<Network> network, AppOptions options);
 
-    // Until the window is closed, or the screenshot is taken or has become impossible.
-    base::Status run();
+    // How long the window may wait for input before a pass, in seconds.
+    double patience() const;
+    // One pass of widgets, between the window's begin() and draw(). `dropped`: sessions.
+    void pass(const std::vector<std::string>& dropped);
+    Desk& desk() { return desk_; }
+    // The newest view is seen, whole and as good as it gets.
+    bool is_settled() const;
+    // Why the function that the window was opened with cannot be used, or empty.
+    const std::string& fault() const { return anchoring_.fault(); }
+    // The link ends with what is given.
+    std::unique_ptr<Network> release_network() { return std::move(network_); }
 
   private:
-    double patience() const;
     void collect();
     void upload();
     void widgets();
@@ -41,10 +49,9 @@ class App {
     void on_picked(const model::Picked& picked);
     void remember();
     void send_wish();
-    bool is_settled() const;
 
     Window& window_;
-    Network& network_;
+    std::unique_ptr<Network> network_;  // or none
     const AppOptions options_;
     PresetShelf presets_;
     FlightFiles flights_;
@@ -56,7 +63,6 @@ class App {
     model::Effort sent_effort_;
     std::optional<view::Lattice> known_lattice_;
     double active_until_ = 0;  // seconds of ImGui's clock
-    int settled_passes_ = 0;
     bool fault_told_ = false;  // of the function that the window was opened with
 };
 

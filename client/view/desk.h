@@ -71,6 +71,10 @@ struct Desk {
     bool hold_values = true;            // pins stay at their data values when limits change
     bool dragging = false;              // something is held down while it changes the wish
     bool retry = false;                 // asked to dial now
+    bool connect_elsewhere = false;     // asked for the connection dialog in this pass
+    bool cancel = false;                // asked in this pass to wait no longer
+    bool in_dialog = false;             // the connection dialog is over everything, and has the keys
+    std::string waiting_note;           // what else there is to know while a link is waited for
     bool escape = false;                // the key was pressed in this pass
     bool panel = true;
     bool dock = true;

@@ -1,9 +1,9 @@
 #include "client/view/keeper.h"
 
 #include <charconv>
-#include <cstdlib>
 #include <filesystem>
 
+#include "client/view/state_folder.h"
 #include "common/scene/file.h"
 
 namespace shearwater::ui {
@@ -13,18 +13,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using Kind = Keeper::Outcome::Kind;
-
-// Nothing where nobody has a home.
-std::optional<fs::path> state_folder() {
-    const char* const state = std::getenv("XDG_STATE_HOME");
-    if (state != nullptr && fs::path(state).is_absolute()) {
-        return fs::path(state) / "shearwater";
-    }
-    const char* const home = std::getenv("HOME");
-    return home != nullptr && fs::path(home).is_absolute()
-               ? std::optional(fs::path(home) / ".local/state/shearwater")
-               : std::nullopt;
-}
 
 std::uint64_t own_process() {
     std::error_code none;

@@ -14,6 +14,8 @@ ImU32 colour_of_link(Connection connection) {
         case Connection::connecting:
         case Connection::waiting:
             return theme::busy;
+        case Connection::none:
+            return theme::vacant;
         case Connection::refused:
             break;
     }
@@ -30,6 +32,8 @@ const char* word_for_link(Connection connection) {
             return "reconnecting";
         case Connection::refused:
             return "refused";
+        case Connection::none:
+            return "not connected";
     }
     return "";
 }
@@ -56,6 +60,7 @@ constexpr HelpLine help_lines[] = {
     {"Arrows, +, -", "turn, zoom"},
     {"Ctrl Z, Ctrl Y", "undo, redo"},
     {"Ctrl S, Ctrl O", "save, open the session"},
+    {"Ctrl N", "connect to another cube"},
     {"Ctrl P", "save the picture, with its session"},
     {"B", "the cube's edges, with coordinates"},
     {"E", "hide or show the editor"},
@@ -81,9 +86,12 @@ void link_section(Desk& desk) {
     ImGui::PushFont(desk.fonts.bold);
     ImGui::TextUnformatted("Shearwater");
     ImGui::PopFont();
-    const float side = ImGui::GetFrameHeight();
-    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - side);
+    const float side = ImGui::GetFrameHeight(), wide = desk.px(112);
+    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - side - desk.px(6) - wide);
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - desk.px(2));
+    desk.connect_elsewhere = ImGui::Button("Connect to ...", {wide, side}) || desk.connect_elsewhere;
+    desk.controls.note("link/Connect to");
+    ImGui::SameLine(0, desk.px(6));
     ImGui::Button("?", {side, side});
     desk.controls.note("help");
     if (ImGui::IsItemHovered()) {

@@ -11,9 +11,10 @@ using Clock = std::chrono::steady_clock;
 // For the goodbye to leave.
 constexpr std::chrono::milliseconds patience{300};
 
-Network::Network(const wire::Route& server, link::Secret secret, std::function<void()> wake)
+Network::Network(const wire::Route& server, model::Redial redial, const std::string& name,
+                 link::Secret secret, std::function<void()> wake)
     : wake_(std::move(wake)),
-      session_(server),
+      session_(server, redial, name),
       hub_(io_, std::move(secret), "client", [this](const wire::NetEvent& event) { on_event(event); }) {
     asio::post(io_, [this] {
         session_.start(Clock::now());

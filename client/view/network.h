@@ -16,9 +16,12 @@ namespace shearwater::ui {
 
 class Network {
   public:
-    // Dials at once. `wake` is called from the network's thread when there is something to collect.
-    Network(const wire::Route& server, link::Secret secret, std::function<void()> wake);
-    ~Network();  // says goodbye
+    // Dials at once; `redial` and `name` as a session has them. `wake` is called from the network's thread
+    // when there is something to collect.
+    Network(const wire::Route& server, model::Redial redial, const std::string& name, link::Secret secret,
+            std::function<void()> wake);
+    // Says goodbye. May take as long as a search for an address that is under way.
+    ~Network();
     Network(const Network&) = delete;
     Network& operator=(const Network&) = delete;
 

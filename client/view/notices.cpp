@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "client/view/progress_card.h"
 #include "client/view/widgets.h"
 
 namespace shearwater::ui {
@@ -36,13 +37,13 @@ std::optional<Notice> banner_for(const Desk& desk) {
         case Connection::refused:
             return Notice{theme::bad, "Refused", status.words};
         case Connection::waiting:
-            return Notice{theme::busy,
-                          fmt::format("Connecting again in {:.0f} s", std::ceil(status.retry_in)),
-                          status.words};
+            return desk.picture.empty() ? std::nullopt
+                                        : std::optional(Notice{theme::busy, again_in(status), status.words});
         case Connection::connecting:
             return desk.picture.empty() ? std::nullopt
                                         : std::optional(Notice{theme::busy, "Connecting", status.words});
         case Connection::connected:
+        case Connection::none:
             break;
     }
     if (status.frame && !status.frame->missing.empty()) {
@@ -77,70 +78,9 @@ void banner(const Desk& desk, const Notice& notice, ImVec2 from, ImVec2 size) {
     list.PopClipRect();
 }
 
-struct Progress {
-    std::string title, detail;
-    double fraction;  // below 0: unknown
-};
-
-// What there is to wait for before the first picture, be it a first look's.
-std::optional<Progress> progress_for(const Desk& desk) {
-    const model::Status& status = desk.status;
-    const model::Tree& tree = status.tree;
-    if (status.connection == Connection::connecting && desk.picture.empty()) {
-        return Progress{"Connecting", status.words, -1};
-    }
-    if (status.connection != Connection::connected) {
-        return std::nullopt;
-    }
-    if (status.first_look().empty() && !tree.nodes.empty() && !tree.ready &&
-        tree.in_phase(wire::pb::PHASE_VACANT) == 0) {
-        const std::string name = desk.has_cube() ? desk.status.cube->name : "the cube";
-        return Progress{
-            "Loading " + name,
-            fmt::format("{} of {} nodes are ready", tree.in_phase(wire::pb::PHASE_READY), tree.nodes.size()),
-            tree.loaded()};
-    }
-    if (desk.picture.empty()) {
-        const int vacant = tree.in_phase(wire::pb::PHASE_VACANT);
-        return vacant > 0 ? Progress{"Waiting for the tree", fmt::format("{} places are vacant", vacant),
-                                     tree.loaded()}
-                          : Progress{"Waiting for the first picture", status.words, -1};
-    }
-    return std::nullopt;
-}
-
-void progress_card(const Desk& desk, const Progress& progress, ImVec2 from, ImVec2 size) {
-    const ImVec2 card{std::min(desk.px(360), size.x - desk.px(32)), desk.px(96)};
-    const ImVec2 at{std::round(from.x + (size.x - card.x) / 2), std::round(from.y + (size.y - card.y) / 2)};
-    const float pad = desk.px(18), right = at.x + card.x - pad;
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(at, {at.x + card.x, at.y + card.y}, IM_COL32(26, 28, 34, 235), desk.px(8));
-    list.PushClipRect(at, {right, at.y + card.y}, true);
-    list.AddText(desk.fonts.bold, desk.fonts.bold->FontSize, {at.x + pad, at.y + desk.px(16)}, theme::text,
-                 progress.title.c_str());
-    list.AddText(desk.fonts.small, desk.fonts.small->FontSize, {at.x + pad, at.y + desk.px(40)}, theme::muted,
-                 progress.detail.c_str());
-    list.PopClipRect();
-    const ImVec2 bar{at.x + pad, at.y + desk.px(70)};
-    const ImVec2 bar_end{right, bar.y + desk.px(6)};
-    list.AddRectFilled(bar, bar_end, theme::line, desk.px(3));
-    const float width = right - bar.x;
-    if (progress.fraction >= 0) {
-        const float done = std::max(desk.px(6), width * static_cast<float>(progress.fraction));
-        list.AddRectFilled(bar, {bar.x + done, bar_end.y}, theme::accent, desk.px(3));
-    } else {  // unknown: a piece that goes to and fro
-        const float place = static_cast<float>(0.5 - 0.5 * std::cos(ImGui::GetTime() * 2)) * width * 0.75F;
-        list.AddRectFilled({bar.x + place, bar.y}, {bar.x + place + width / 4, bar_end.y}, theme::accent,
-                           desk.px(3));
-    }
-}
-
 }  // namespace
 
 void notices(const Desk& desk, ImVec2 from, ImVec2 size) {
-    if (const auto progress = progress_for(desk)) {
-        progress_card(desk, *progress, from, size);
-    }
     if (const auto notice = banner_for(desk)) {
         banner(desk, *notice, from, size);
     }

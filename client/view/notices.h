@@ -1,5 +1,5 @@
 #pragma once
-// What has to be said over the picture: the link is gone, the cube is loading, parts are missing.
+// What has to be said over the picture: the link is gone, parts are missing.
 
 #include "client/view/desk.h"
 

@@ -51,6 +51,7 @@ void set_colours(ImGuiStyle& style) {
     set(ImGuiCol_SliderGrabActive, IM_COL32(132, 184, 255, 255));
     set(ImGuiCol_CheckMark, accent);
     set(ImGuiCol_PlotHistogram, accent);
+    set(ImGuiCol_ModalWindowDimBg, IM_COL32(8, 9, 12, 170));
     set(ImGuiCol_ScrollbarBg, IM_COL32(0, 0, 0, 0));
     set(ImGuiCol_ScrollbarGrab, IM_COL32(58, 63, 74, 255));
 }

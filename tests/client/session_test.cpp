@@ -227,5 +227,41 @@ TEST_F(SessionTest, AnIncompletePictureIsAskedForAgainWhenMoreIsReady) {
     EXPECT_THAT(views_, SizeIs(2)) << "whole at last";
 }
 
+// What a person has just typed may be wrong: until there has been a link, a dial that comes to nothing is the
+// end.
+TEST_F(SessionTest, IsRefusedAtOnceWhereItDialsOnlyOnceLinked) {
+    session_ = Session(wire::Route({"ssh", "ann@big"}), Redial::once_linked, "ann@big:/x.fits");
+    start();
+    EXPECT_EQ(status().words, "Connecting to ann@big:/x.fits ...");
+    down(pb::REASON_LOST, "ssh: Could not resolve hostname big");
+    EXPECT_EQ(status().connection, Connection::refused);
+    EXPECT_EQ(status().words, "ssh: Could not resolve hostname big") << "the program's own words";
+    pass(10s);
+    EXPECT_THAT(dials_, SizeIs(1));
+
+    session_.retry(now_);
+    take();
+    ASSERT_THAT(dials_, SizeIs(2));
+    up();
+    EXPECT_EQ(status().words, "Connected to ann@big:/x.fits.");
+    down(pb::REASON_LOST, "closed");
+    EXPECT_EQ(status().connection, Connection::waiting);
+    pass(1s);
+    EXPECT_THAT(dials_, SizeIs(3)) << "a link that was lost is dialled again";
+}
+
+TEST_F(SessionTest, SaysWhyNoServerAnswers) {
+    start();
+    down(pb::REASON_UNREACHABLE, "host:4000: Connection refused");
+    EXPECT_THAT(status().words, HasSubstr("at host:4000 (Connection refused). Is it running"));
+    pass(1s);
+    down(pb::REASON_TIMED_OUT, "the handshake took too long");
+    EXPECT_THAT(status().words, HasSubstr("not as a Shearwater server"));
+    pass(1s);
+    down(pb::REASON_BAD_SECRET);
+    EXPECT_EQ(status().connection, Connection::refused);
+    EXPECT_THAT(status().words, HasSubstr("secret is not the one that host:4000 has"));
+}
+
 }  // namespace
 }  // namespace shearwater::model

@@ -145,7 +145,8 @@ TEST_F(WindowTest, AWrongSecretIsSaid) {
 
 TEST_F(WindowTest, MistakesEndWithTwoAndOneLine) {
     const std::vector<std::vector<std::string>> mistakes = {
-        {program("shearwater-client")},
+        {program("shearwater-client"), "--screenshot", "of-nothing.png"},
+        {program("shearwater-client"), "--connect", "localhost:1", "--place", "of-no-command"},
         {program("shearwater-client"), "--connect", "nonsense host:1"},
         {program("shearwater-client"), "--connect", "localhost"},
         {program("shearwater-client"), "--connect", "localhost:1", "--size", "10x10"},

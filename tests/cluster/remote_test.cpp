@@ -47,12 +47,12 @@ TEST(Remote, NamesOfCubesElsewhereAreTold) {
 }
 
 TEST(Remote, WordsReachTheOtherShellAsTheyAre) {
-    EXPECT_EQ(deploy::shell_word("a b"), "'a b'");
-    EXPECT_EQ(deploy::shell_word("it's; rm -rf $HOME"), "'it'\\''s; rm -rf $HOME'");
+    EXPECT_EQ(wire::shell_word("a b"), "'a b'");
+    EXPECT_EQ(wire::shell_word("it's; rm -rf $HOME"), "'it'\\''s; rm -rf $HOME'");
     deploy::TargetOptions options;
-    options.cube.path = "unused";
-    options.remote.ssh = "ssh -p 22";
-    const auto words = deploy::serving_command({"ann@big", "/a b/c's.fits"}, options);
+    options.cube.path = "ann@big:/a b/c's.fits";
+    options.remote.shell.ssh = "ssh -p 22";
+    const auto words = deploy::serving_command(options, "warn");
     ASSERT_EQ(words.size(), 6U);
     EXPECT_EQ(words[4], "ann@big");
     EXPECT_EQ(words[5].rfind("exec 'shearwater' serve --stdio '/a b/c'\\''s.fits'", 0), 0U) << words[5];
@@ -115,7 +115,7 @@ TEST_F(RemoteCube, WhatTheProgramSaysIsTold) {
         snapshot(script("echo 'Welcome to this machine, which prints what it should not'; cat >/dev/null"),
                  "somewhere:" + cube_, png),
         "shearwater snapshot");
-    support::expect_mistake("serve --stdio " + deploy::shell_word(cube_), "secret");
+    support::expect_mistake("serve --stdio " + wire::shell_word(cube_), "secret");
 }
 
 TEST_F(RemoteCube, IsDrawnThroughSsh) {
