@@ -33,7 +33,7 @@ class TreeClient {
     // Each waits at most `patience` (of real time, generous: no test is about speed) and says whether it
     // came about.
     bool wait_until(const std::function<bool()>& holds,
-                    std::chrono::seconds patience = std::chrono::seconds(60));
+                    std::chrono::seconds patience = std::chrono::seconds(240));
     bool wait_connected() {
         return wait_until([this] { return up_ || down_; }) && up_;
     }
