@@ -171,8 +171,11 @@ void Session::on_message(const wire::Received& received, wire::Time now) {
     }
 }
 
-// Other limits alone are no other view.
+// Other limits alone are no other view. Those wished for are of the cube before.
 void Session::on_cube(Cube cube, wire::Time now) {
+    if (wish_ && cube_ && (cube_->lattice != cube.lattice || cube_->name != cube.name)) {
+        wish_->scaling.reset();
+    }
     const bool is_known = described_ && cube_->lattice == cube.lattice;
     cube_ = std::move(cube);
     described_ = true;

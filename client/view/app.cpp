@@ -65,7 +65,11 @@ void App::collect() {
                 desk_.wish.crop.reset();
                 desk_.eyes = {};
             }
+            if (is_another || (known_lattice_ && known_name_ != desk_.status.cube->name)) {
+                desk_.wish.scaling.reset();
+            }
             known_lattice_ = desk_.lattice();
+            known_name_ = desk_.status.cube->name;
         }
     }
     if (auto tf = anchoring_.settle(desk_.status, desk_.wish.tf, desk_.now)) {

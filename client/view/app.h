@@ -61,7 +61,8 @@ class App {
     model::Anchoring anchoring_;
     model::Wish sent_;
     model::Effort sent_effort_;
-    std::optional<view::Lattice> known_lattice_;
+    std::optional<view::Lattice> known_lattice_;  // of the cube shown
+    std::string known_name_;
     double active_until_ = 0;  // seconds of ImGui's clock
     bool fault_told_ = false;  // of the function that the window was opened with
 };

@@ -263,5 +263,30 @@ TEST_F(SessionTest, SaysWhyNoServerAnswers) {
     EXPECT_THAT(status().words, HasSubstr("secret is not the one that host:4000 has"));
 }
 
+// They are asked for again of a server that was started anew, but not of one that has another cube.
+TEST_F(SessionTest, LimitsAreOfTheCubeTheyWereChosenFor) {
+    connect();
+    wish_.scaling = volume::Scaling{-1, 4, volume::Stretch::log};
+    turn();
+    ASSERT_FALSE(views_.empty());
+    EXPECT_EQ(views_.back().scaling, wish_.scaling);
+    answer(views_.back().revision);
+    down(pb::REASON_LOST);
+    pass(1s);
+    connect();
+    pass(1s);
+    EXPECT_EQ(views_.back().scaling, wish_.scaling);
+    down(pb::REASON_LOST);
+    pass(1s);
+    views_.clear();
+    up();
+    auto other = description();
+    other.set_name("other.fits");
+    receive(other);
+    pass(1s);
+    ASSERT_FALSE(views_.empty());
+    EXPECT_FALSE(views_.back().scaling);
+}
+
 }  // namespace
 }  // namespace shearwater::model
