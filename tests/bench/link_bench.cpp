@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <cstdlib>
@@ -32,15 +33,19 @@ struct Turned {
     double whole_after = 0;                // seconds from the last turn to the whole high picture
 };
 
-// Turns by a degree every 16 ms, as a hand does that drags.
+// A hand that drags turns by a degree every 16 ms; one that steps, 100 ms after it has seen what the last
+// step did: by a degree, or the height of the first pin.
+enum class Hand { drags, turns, moves_pin };
+
 class Orbiting {
   public:
     Orbiting(const wire::Address& server, const link::Secret& secret, const view::TransferFunction& tf,
-             std::chrono::seconds time)
+             std::chrono::seconds time, Hand hand)
         : session_(server),
           hub_(io_, link::Secret(secret), "link bench", [this](const wire::NetEvent& event) { on(event); }),
           timer_(io_),
-          time_(time) {
+          time_(time),
+          hand_(hand) {
         wish_.tf = tf;
         wish_.size = {512, 512};
     }
@@ -76,9 +81,11 @@ class Orbiting {
                 begin_ = now + settling;
                 end_ = begin_ + time_;
             }
-            if (begin_ == Clock::time_point{} || now < end_) {
-                wish_.viewpoint.orbit.azimuth += 1;
+            const bool is_due = hand_ == Hand::drags || now - seen_at_ >= 100ms;
+            if (is_due && (begin_ == Clock::time_point{} || now < end_)) {
+                step();
                 turned_at_ = now;
+                seen_at_ = Clock::time_point::max();
                 session_.want(wish_, model::Change::dragging, now);
             } else {
                 session_.handle(wire::Tick{}, now);
@@ -86,6 +93,16 @@ class Orbiting {
             carry_out();
             turn();
         });
+    }
+
+    void step() {
+        if (hand_ != Hand::moves_pin) {
+            wish_.viewpoint.orbit.azimuth += 1;
+            return;
+        }
+        raised_ = !raised_;
+        const double height = raised_ ? 0.021 : 0.02;
+        wish_.tf.opacity_pins.at(0) = view::Ramp{0, height, 1, height};
     }
 
     void carry_out() {
@@ -99,6 +116,9 @@ class Orbiting {
         }
         const auto picture = session_.take_picture();
         const auto now = Clock::now();
+        if (picture && asked_[picture->revision] == turned_at_ && seen_at_ == Clock::time_point::max()) {
+            seen_at_ = now;
+        }
         if (!picture || begin_ == Clock::time_point{}) {
             return;
         }
@@ -118,18 +138,26 @@ class Orbiting {
     link::Hub hub_;
     boost::asio::steady_timer timer_;
     std::chrono::seconds time_;
+    Hand hand_;
+    bool raised_ = false;
     model::Wish wish_;
     std::map<std::uint64_t, Clock::time_point> asked_;
-    Clock::time_point begin_{}, end_{}, turned_at_{};
+    Clock::time_point begin_{}, end_{}, turned_at_{}, seen_at_{};
     std::vector<double> lags_;
     double bytes_ = 0;
     Turned turned_;
 };
 
-int run(const std::vector<std::pair<double, double>>& links, std::chrono::seconds time) {
+struct Link {
+    double megabits, round_trip;
+    Hand hand = Hand::drags;
+};
+
+int run(const std::vector<Link>& links, std::chrono::seconds time) {
     constexpr std::int64_t edge = 256;
-    fmt::print("{:>4} {:>10} {:>8} {:>11} {:>8} {:>8} {:>9} {:>9} {:>8}\n", "cube", "Mbit/s", "ms",
-               "pictures/s", "lag ms", "worst", "kB each", "size", "whole s");
+    constexpr std::array names{"drags", "turns", "pin"};
+    fmt::print("{:>4} {:>6} {:>10} {:>8} {:>11} {:>8} {:>8} {:>9} {:>9} {:>8}\n", "cube", "hand", "Mbit/s",
+               "ms", "pictures/s", "lag ms", "worst", "kB each", "size", "whole s");
     for (const char* name : {"W1", "W2"}) {
         const bench::Workload drawn = bench::workload(name);
         const link::Secret secret = link::Secret::random();
@@ -140,13 +168,14 @@ int run(const std::vector<std::pair<double, double>>& links, std::chrono::second
             fmt::print(stderr, "link_bench: {}\n", tree.error().message());
             return 2;
         }
-        for (const auto& [megabits, round_trip] : links) {
+        for (const auto& [megabits, round_trip, hand] : links) {
             test::SlowLink link(tree->address(), {megabits * 1e6 / 8, Seconds(round_trip / 2000)});
-            const Turned turned = Orbiting(link.address(), secret, drawn.tf, time).run();
-            fmt::print("{:>4} {:>10.0f} {:>8.0f} {:>11.1f} {:>8.0f} {:>8.0f} {:>9.0f} {:>9} {:>8.1f}\n", name,
-                       megabits, round_trip, turned.pictures_per_second, turned.median_lag * 1e3,
-                       turned.worst_lag * 1e3, turned.bytes / 1e3,
-                       fmt::format("{}x{}", turned.last.width, turned.last.height), turned.whole_after);
+            const Turned turned = Orbiting(link.address(), secret, drawn.tf, time, hand).run();
+            fmt::print("{:>4} {:>6} {:>10.0f} {:>8.0f} {:>11.1f} {:>8.0f} {:>8.0f} {:>9.0f} {:>9} {:>8.1f}\n",
+                       name, names.at(static_cast<std::size_t>(hand)), megabits, round_trip,
+                       turned.pictures_per_second, turned.median_lag * 1e3, turned.worst_lag * 1e3,
+                       turned.bytes / 1e3, fmt::format("{}x{}", turned.last.width, turned.last.height),
+                       turned.whole_after);
         }
     }
     return 0;
@@ -161,5 +190,6 @@ int main(int argc, char** argv) {
     if (argc > 1) {
         return shearwater::run({{number(1, 100), number(2, 20)}}, time);
     }
-    return shearwater::run({{10000, 0}, {100, 20}, {10, 20}}, time);
+    using enum shearwater::Hand;
+    return shearwater::run({{10000, 0, turns}, {10000, 0, moves_pin}, {10000, 0}, {100, 20}, {10, 20}}, time);
 }
