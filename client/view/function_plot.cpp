@@ -31,7 +31,7 @@ void draw_opacities(const Desk& desk, ImDrawList& list, const Plot& plot) {
     for (const double opacity : model::opacity_marks(plot.axis)) {
         const float y = std::round(plot.y(opacity));
         list.AddText(desk.fonts.small, desk.fonts.small->FontSize * 0.92F,
-                     {plot.from.x + desk.px(4), y - desk.fonts.small->FontSize - desk.px(1)}, mark_text,
+                     {plot.from.x + desk.px(4), y - desk.fonts.small->FontSize - desk.px(1)}, theme::text,
                      fmt::format("{:g}", opacity).c_str());
     }
 }
