@@ -1,5 +1,7 @@
 #include "client/model/limits.h"
 
+#include <array>
+
 #include "common/view/anchored_function.h"
 #include "common/volume/zscale.h"
 
@@ -10,31 +12,14 @@ std::optional<volume::Scaling> scaling_by(LimitsBy by, const Cube& cube) {
         return std::nullopt;
     }
     const volume::Summary& values = *cube.values;
-    const auto central = [&](double percent) {
-        const double cut = (100 - percent) / 200;
-        return volume::Limits{values.value_at(cut), values.value_at(1 - cut)};
-    };
-    volume::Limits limits{values.min, values.max};
-    switch (by) {
-        case LimitsBy::all:
-            break;
-        case LimitsBy::p999:
-            limits = central(99.9);
-            break;
-        case LimitsBy::p995:
-            limits = central(99.5);
-            break;
-        case LimitsBy::p99:
-            limits = central(99);
-            break;
-        case LimitsBy::p95:
-            limits = central(95);
-            break;
-        case LimitsBy::zscale:
-            limits = volume::zscale_limits(values);
-            break;
+    // Of the values, by the others in their order.
+    constexpr std::array percents{100.0, 99.9, 99.5, 99.0, 95.0};
+    if (by == LimitsBy::zscale) {
+        const volume::Limits limits = volume::zscale_limits(values);
+        return volume::Scaling{limits.lo, limits.hi, cube.mapping.stretch};
     }
-    return volume::Scaling{limits.lo, limits.hi, cube.mapping.stretch};
+    const double cut = (100 - percents.at(static_cast<std::size_t>(by))) / 200;
+    return volume::Scaling{values.value_at(cut), values.value_at(1 - cut), cube.mapping.stretch};
 }
 
 base::Status validate(const volume::Scaling& scaling) {

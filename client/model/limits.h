@@ -1,9 +1,7 @@
 #pragma once
 // The limits of values that a person chooses for the cube, and what becomes of the transfer function then.
 
-#include <array>
 #include <optional>
-#include <string_view>
 
 #include "client/model/status.h"
 #include "common/base/result.h"
@@ -12,9 +10,8 @@
 
 namespace shearwater::model {
 
-// By what limits are found.
+// By what limits are found: so many percent of the values in their middle, or zscale.
 enum class LimitsBy { all, p999, p995, p99, p95, zscale };
-constexpr std::array<std::string_view, 6> limits_by_names{"min/max", "99.9", "99.5", "99", "95", "zscale"};
 
 // Those of a cube's values with the stretch it has; nothing where no values are known.
 std::optional<volume::Scaling> scaling_by(LimitsBy by, const Cube& cube);
