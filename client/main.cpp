@@ -6,7 +6,9 @@
 #include <cstdio>
 
 #include "client/view/viewer.h"
+#include "common/options/crop_option.h"
 #include "common/options/drawing_options.h"
+#include "common/options/stereo_options.h"
 #include "common/scene/file.h"
 
 namespace {
@@ -20,6 +22,8 @@ struct Options {
     std::string connect, place, secret_file, screenshot, controls, session;
     std::string size = "1280x800";
     options::DrawingOptions drawing;
+    options::StereoOptions stereo;
+    options::CropOption crop;
     ui::WindowOptions window;
     model::Effort effort;
 };
@@ -45,6 +49,8 @@ void declare(CLI::App& app, Options& options) {
         "--secret-file", options.secret_file,
         fmt::format("A file of mode 0600 with the server's secret; else ${}", link::Secret::variable));
     options.drawing.add_to(app);
+    options.stereo.add_to(app);
+    options.crop.add_to(app);
     app.add_option("--size", options.size, "The window's size")->check(check_size)->capture_default_str();
     app.add_option("--scale", options.window.scale, "Pixels per nominal pixel; else as the display says")
         ->check(CLI::Range(0.5, 4.0));
@@ -148,7 +154,9 @@ base::Status run(Options options) {
                                .culling = options.drawing.culling_settings(),
                                .effort = options.effort,
                                .scene = std::move(scene),
-                               .session = options.session},
+                               .session = options.session,
+                               .pair = options.stereo.pair(),
+                               .crop = options.crop.box()},
                        .controls = options.controls,
                        .screenshot = options.screenshot},
                       *std::move(first));

@@ -60,7 +60,7 @@ base::Result<Values> values_of(cube::Cube& opened, const options::CubeOptions& c
     return Values{mapping, std::make_shared<const volume::Summary>(volume::summarise(*histogram, mapping))};
 }
 
-std::vector<view::Camera> eyes_of(const view::Camera& camera, const StereoOptions& stereo) {
+std::vector<view::Camera> eyes_of(const view::Camera& camera, const options::StereoOptions& stereo) {
     if (!stereo.mode()) {
         return {camera};
     }
@@ -132,7 +132,7 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     }
     const view::Lattice lattice{.n = opened->info.n, .spacing = cube.spacing_value()};
     const auto size = view.image_size();
-    const auto crop = view.crop_of(lattice);
+    const auto crop = view.crop.box_of(lattice);
     if (!size || !crop) {
         return size ? crop.error() : size.error();
     }

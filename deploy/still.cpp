@@ -128,7 +128,7 @@ bool Still::prepare_next() {
 }
 
 void Still::ask(wire::Time now, std::vector<wire::NetEffect>& effects) {
-    const auto crop = options_.crop_of(known_->lattice);
+    const auto crop = options_.crop.box_of(known_->lattice);
     if (!crop) {
         failed_ = crop.error();
     }

@@ -6,7 +6,9 @@
 
 #include "common/base/own_program.h"
 #include "common/cube/open.h"
+#include "common/options/crop_option.h"
 #include "common/options/drawing_options.h"
+#include "common/options/stereo_options.h"
 #include "common/scene/file.h"
 #include "deploy/commands.h"
 #include "deploy/target.h"
@@ -19,6 +21,8 @@ const std::string view_program = "shearwater view";
 struct ViewFlags {
     TargetOptions target;
     options::DrawingOptions drawing;
+    options::StereoOptions stereo;
+    options::CropOption crop;
     double target_rate = 20;
     std::string session;
 };
@@ -43,8 +47,12 @@ base::Status check(const ViewFlags& flags) {
         return topology.error();
     }
     if (!remote_cube(cube.path)) {
-        if (const auto opened = cube::open(cube.path, cube.open_options()); !opened) {
+        const auto opened = cube::open(cube.path, cube.open_options());
+        if (!opened) {
             return opened.error();
+        }
+        if (const auto crop = flags.crop.box_of({.n = opened->info.n}); !crop) {
+            return crop.error();
         }
     }
     return {};
@@ -70,6 +78,8 @@ std::vector<std::string> arguments_of(const ViewFlags& flags) {
     } else {
         add({"--session", flags.session});
     }
+    add(flags.stereo.arguments());
+    add(flags.crop.arguments());
     if (!target.cube.path.empty()) {
         add({"--place", target.cube.path, "--"});
         add(serving_command(target, "info"));
@@ -101,6 +111,8 @@ base::Status view(const ViewFlags& flags) {
 Run add_view(CLI::App& app) {
     auto flags = std::make_shared<ViewFlags>();
     flags->drawing.add_to(app);
+    flags->stereo.add_to(app);
+    flags->crop.add_to(app);
     app.add_option("--target-rate", flags->target_rate,
                    "frames a second to hold while the view moves, by lesser quality where need be")
         ->check(CLI::Range(1.0, 60.0))

@@ -1,10 +1,8 @@
 #include "deploy/view_options.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <array>
 #include <charconv>
-#include <iterator>
 
 #include "common/scene/file.h"
 
@@ -50,23 +48,15 @@ void ViewOptions::add_picture_to(CLI::App& app) {
             ->capture_default_str()
             ->group(group);
     drawing.add_ways(app, group);
-    app.add_option("--crop", crop,
-                   "show these voxels only: the first and the last along x, y and z, from 0 on")
-        ->expected(6)
-        ->type_name("X0 X1 Y0 Y1 Z0 Z1")
-        ->group(group);
+    crop.add_to(app, group);
     stereo.add_to(app, group);
 }
 
 std::vector<std::string> ViewOptions::picture_arguments() const {
     std::vector<std::string> all{"--size", size, "--quality", quality};
-    for (const std::vector<std::string>& more : {drawing.arguments(), stereo.arguments()}) {
+    for (const std::vector<std::string>& more :
+         {drawing.arguments(), stereo.arguments(), crop.arguments()}) {
         all.insert(all.end(), more.begin(), more.end());
-    }
-    if (!crop.empty()) {
-        all.emplace_back("--crop");
-        std::ranges::transform(crop, std::back_inserter(all),
-                               [](std::int64_t voxel) { return std::to_string(voxel); });
     }
     return all;
 }
@@ -81,15 +71,12 @@ base::Status ViewOptions::open_session() {
     }
     viewpoint_ = scene->viewpoint;
     drawing.take(*scene);
-    if (scene->crop && crop.empty()) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            crop.insert(crop.end(), {scene->crop->lo[axis], scene->crop->hi[axis]});
-        }
+    if (scene->crop && !crop.box()) {
+        crop.take(*scene->crop);
     }
     scaling = scene->scaling;
     if (scene->stereo && !stereo.mode()) {
-        stereo.shown = image::stereo_mode_names[static_cast<std::size_t>(scene->stereo->mode)];
-        stereo.eyes = scene->stereo->eyes;
+        stereo.take(*scene->stereo);
     }
     if (size_option_ == nullptr || size_option_->count() == 0) {
         size = std::to_string(scene->size.width) + "x" + std::to_string(scene->size.height);
@@ -140,17 +127,6 @@ base::Result<view::Camera> ViewOptions::camera(const view::Lattice& lattice) con
         return valid.error();
     }
     return made;
-}
-
-base::Result<std::optional<volume::Box>> ViewOptions::crop_of(const view::Lattice& lattice) const {
-    if (crop.size() != 6) {
-        return std::optional<volume::Box>();
-    }
-    const volume::Box box{{crop[0], crop[2], crop[4]}, {crop[1], crop[3], crop[5]}};
-    if (const auto valid = view::validate_crop(box, lattice.n); !valid) {
-        return valid.error();
-    }
-    return std::optional(box);
 }
 
 }  // namespace shearwater::deploy

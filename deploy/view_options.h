@@ -8,9 +8,10 @@
 
 #include "common/base/result.h"
 #include "common/options/cli_fwd.h"
+#include "common/options/crop_option.h"
 #include "common/options/drawing_options.h"
+#include "common/options/stereo_options.h"
 #include "common/view/viewpoint.h"
-#include "deploy/stereo_options.h"
 
 namespace shearwater::deploy {
 
@@ -22,8 +23,8 @@ struct ViewOptions {
     std::string size = "512x512";
     std::string quality = "normal";
     options::DrawingOptions drawing;
-    StereoOptions stereo;
-    std::vector<std::int64_t> crop;          // first and last voxel along each axis; empty: the whole cube
+    options::StereoOptions stereo;
+    options::CropOption crop;
     std::optional<volume::Scaling> scaling;  // of the cube's values, by the session; else as it is loaded
     std::string session;  // a file that says the rest; size and quality may be given besides
 
@@ -47,8 +48,6 @@ struct ViewOptions {
     base::Status check(const view::Camera& camera) const;
     // The camera for a cube, checked.
     base::Result<view::Camera> camera(const view::Lattice& lattice) const;
-    // What of a cube is shown, checked.
-    base::Result<std::optional<volume::Box>> crop_of(const view::Lattice& lattice) const;
 
   private:
     std::optional<view::Viewpoint> viewpoint_;  // the session's

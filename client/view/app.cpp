@@ -22,7 +22,7 @@ App::App(Window& window, std::unique_ptr<Network> network, AppOptions options)
       options_(std::move(options)),
       presets_(PresetFolder::of_user(), Window::wake),
       flights_(Window::wake),
-      desk_(window.fonts(), window.scale(), presets_, flights_),
+      desk_(window, presets_, flights_),
       files_(Window::wake),
       anchoring_(options_.scene ? view::AnchoredFunction{.tf = options_.scene->tf} : options_.tf) {
     desk_.wish.level_of_detail = options_.level_of_detail;
@@ -31,6 +31,12 @@ App::App(Window& window, std::unique_ptr<Network> network, AppOptions options)
     desk_.effort = options_.effort;
     if (options_.scene) {
         Files::open(desk_, options_.session, *options_.scene);
+    }
+    if (options_.crop) {
+        desk_.wish.crop = options_.crop;
+    }
+    if (options_.pair) {
+        desk_.show_pair(options_.pair);
     }
     desk_.status.words = network_ ? "Starting ..." : "Nothing to see yet.";
 }
@@ -72,6 +78,11 @@ void App::collect() {
             known_name_ = desk_.status.cube->name;
         }
     }
+    if (desk_.has_cube() && options_.crop && !std::exchange(crop_told_, true)) {
+        if (const auto valid = view::validate_crop(*options_.crop, desk_.lattice().n); !valid) {
+            desk_.say(valid.error().message(), true);
+        }
+    }
     if (auto tf = anchoring_.settle(desk_.status, desk_.wish.tf, desk_.now)) {
         desk_.wish.tf = *std::move(tf);
     }
@@ -92,13 +103,16 @@ void App::collect() {
     }
 }
 
-// The picture, or both eyes' as one.
+// The picture, or both eyes' as one or apart.
 void App::upload() {
     const model::Picture& seen = *desk_.seen;
-    if (desk_.shown && !seen.right.empty()) {
-        desk_.picture.upload(image::composed(seen.pixels, seen.right, *desk_.shown));
-    } else {
+    if (!desk_.shown || seen.right.empty()) {
         desk_.picture.upload(seen.pixels);
+    } else if (image::is_apart(*desk_.shown)) {
+        desk_.picture.upload(seen.pixels);
+        desk_.right_picture.upload(seen.right);
+    } else {
+        desk_.picture.upload(image::composed(seen.pixels, seen.right, *desk_.shown));
     }
 }
 
@@ -271,8 +285,9 @@ void App::send_wish() {
 
 bool App::is_settled() const {
     const model::Status& status = desk_.status;
+    const bool is_composed = desk_.shown && !image::is_apart(*desk_.shown);
     const view::ImageSize wanted =
-        desk_.shown ? image::composed_size(desk_.wish.size, *desk_.shown) : desk_.wish.size;
+        is_composed ? image::composed_size(desk_.wish.size, *desk_.shown) : desk_.wish.size;
     return !anchoring_.pending() && status.connection == model::Connection::connected && status.frame &&
            status.frame->missing.empty() && !status.frame->sketch && desk_.picture_revision == status.sent &&
            desk_.picture_quality == desk_.best_quality() && desk_.picture.width() == wanted.width &&

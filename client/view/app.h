@@ -20,6 +20,8 @@ struct AppOptions {
     model::Effort effort;
     std::optional<scene::Scene> scene;  // to begin with, read from:
     std::string session;
+    std::optional<scene::Pair> pair;  // these two in place of the scene's
+    model::Crop crop;
 };
 
 class App {
@@ -65,6 +67,7 @@ class App {
     std::string known_name_;
     double active_until_ = 0;  // seconds of ImGui's clock
     bool fault_told_ = false;  // of the function that the window was opened with
+    bool crop_told_ = false;   // whether the cube has what it is to be cropped to
 };
 
 }  // namespace shearwater::ui

@@ -18,6 +18,7 @@
 #include "client/view/preset_shelf.h"
 #include "client/view/texture.h"
 #include "client/view/theme.h"
+#include "client/view/window.h"
 
 namespace shearwater::ui {
 
@@ -40,17 +41,25 @@ struct MovieState {
 };
 
 struct Desk {
-    Desk(theme::Fonts fonts_in, float scale_in, PresetShelf& presets_in, FlightFiles& flights_in)
-        : fonts(fonts_in), scale(scale_in), presets(presets_in), flights(flights_in) {}
+    Desk(Window& window, PresetShelf& presets_in, FlightFiles& flights_in)
+        : fonts(window.fonts()),
+          scale(window.scale()),
+          has_quad_buffers(window.has_quad_buffers()),
+          gates(window.gates()),
+          presets(presets_in),
+          flights(flights_in) {}
 
     const theme::Fonts fonts;
     const float scale;
+    const bool has_quad_buffers;
+    EyeGates& gates;
     PresetShelf& presets;
     FlightFiles& flights;
 
     // From the network.
     model::Status status;
-    Texture picture;
+    Texture picture;                             // or the left eye's
+    Texture right_picture;                       // where the eyes' pictures are apart
     std::shared_ptr<const model::Picture> seen;  // that the picture is made from
     std::uint64_t picture_revision = 0;
     view::Quality picture_quality = view::Quality::normal;
@@ -61,8 +70,9 @@ struct Desk {
     Shown shown;                // how a pair of pictures is shown; none: one picture is wanted
     view::StereoSettings eyes;  // of the pair
     bool reshown = false;       // the picture is to be made anew
-    bool boxed = false;         // the cube's edges are over the picture, with scales
-    bool cropping = false;      // the box's edges and handles are over the picture
+    std::optional<view::ImageSize> eye_window;  // the size of an eye's own window, where it has one
+    bool boxed = false;                         // the cube's edges are over the picture, with scales
+    bool cropping = false;                      // the box's edges and handles are over the picture
     struct CropDrag {
         model::BoxFace face;
         double plane;
@@ -116,6 +126,14 @@ struct Desk {
     void show(const Shown& how) {
         shown = how;
         reshown = true;
+        if (how == image::StereoMode::quad_buffered && !has_quad_buffers) {
+            shown = image::StereoMode::side_by_side;
+            say("This display has no buffer for each eye: they are side by side", true);
+        }
+    }
+    void show_pair(const std::optional<scene::Pair>& pair) {
+        show(pair ? Shown(pair->mode) : Shown());
+        eyes = pair ? pair->eyes : view::StereoSettings();
     }
     float px(float nominal) const { return nominal * scale; }
     bool has_cube() const { return status.cube.has_value(); }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "client/view/eye_gates.h"
 #include "common/image/stereo_modes.h"
 #include "common/view/project.h"
 #include "common/view/stereo.h"
@@ -16,7 +17,8 @@ namespace shearwater::ui {
 using Shown = std::optional<image::StereoMode>;
 
 struct EyeArea {
-    ImVec2 from, size;  // window coordinates
+    ImVec2 from, size;        // window coordinates
+    std::optional<Eye> only;  // who sees what is drawn there; else both, if they look there
 
     bool contains(ImVec2 at) const {
         return at.x >= from.x && at.y >= from.y && at.x < from.x + size.x && at.y < from.y + size.y;
@@ -26,7 +28,10 @@ struct EyeArea {
     view::Vec2 to_pixels(ImVec2 at, const view::ImageSize& picture) const;
 };
 
-// One, or two beside or below one another, the left eye's first. All are of one size.
+// The largest in the middle of a rectangle that a picture of such a size fills in proportion.
+EyeArea fitted(ImVec2 from, ImVec2 size, const view::ImageSize& picture);
+
+// One, or two beside or below one another or in one place, the left eye's first. All are of one size.
 std::vector<EyeArea> eye_areas(const Shown& shown, ImVec2 from, ImVec2 size);
 
 // The cameras of those areas whose pictures are one eye's alone; none where both are mixed in one.

@@ -27,8 +27,7 @@ void Files::apply(Desk& desk, const scene::Scene& scene) {
     desk.transition.stop();
     desk.flying = false;
     model::apply(scene, desk.wish, desk.effort);
-    desk.show(scene.stereo ? Shown(scene.stereo->mode) : Shown());
-    desk.eyes = scene.stereo ? scene.stereo->eyes : view::StereoSettings();
+    desk.show_pair(scene.stereo);
 }
 
 // A picture is not written over by a session: that gets a name beside it.

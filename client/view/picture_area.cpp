@@ -21,41 +21,63 @@ constexpr ImGuiWindowFlags bare = ImGuiWindowFlags_NoDecoration | ImGuiWindowFla
                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
                                   ImGuiWindowFlags_NoBringToFrontOnFocus;
 
-// The display's pixels of a size in window coordinates, brought within what may be asked for, of one eye.
-view::ImageSize picture_size(ImVec2 size, const Shown& shown) {
-    constexpr int max_side = 8192;
+// A size brought within what may be asked for, of one eye.
+view::ImageSize within_bounds(const view::ImageSize& size, const Shown& shown) {
+    constexpr double max_side = 8192;
     const double max_area = double{1 << 25} / (shown ? 2 : 1);
-    const ImVec2 per_point = ImGui::GetIO().DisplayFramebufferScale;
-    double width = std::clamp(std::floor(double{size.x} * double{per_point.x}), 16.0, double{max_side});
-    double height = std::clamp(std::floor(double{size.y} * double{per_point.y}), 16.0, double{max_side});
+    const double width = std::clamp(static_cast<double>(size.width), 16.0, max_side);
+    const double height = std::clamp(static_cast<double>(size.height), 16.0, max_side);
     const double shrink = std::min(1.0, std::sqrt(max_area / (width * height)));
-    width = std::floor(width * shrink);
-    height = std::floor(height * shrink);
-    return {static_cast<int>(width), static_cast<int>(height)};
+    return {static_cast<int>(width * shrink), static_cast<int>(height * shrink)};
 }
 
-// The last picture, kept in proportion where its size is not that of the area (yet).
-void draw_picture(const Desk& desk, ImVec2 from, ImVec2 size) {
-    if (desk.picture.empty()) {
+// The display's pixels of a size in window coordinates, within those bounds.
+view::ImageSize picture_size(ImVec2 size, const Shown& shown) {
+    const ImVec2 per_point = ImGui::GetIO().DisplayFramebufferScale;
+    return within_bounds({static_cast<int>(size.x * per_point.x), static_cast<int>(size.y * per_point.y)},
+                         shown);
+}
+
+// A last picture, kept in proportion where its size is not that of the area (yet).
+void draw_picture(const Desk& desk, const Texture& picture, const EyeArea& in) {
+    if (picture.empty()) {
         return;
     }
-    const float width = static_cast<float>(desk.picture.width());
-    const float height = static_cast<float>(desk.picture.height());
-    const float fit = std::min(size.x / width, size.y / height);
-    // Its sides are whole pixels, which may be large ones.
-    const float rounding = std::max(2.0F, fit);
-    const ImVec2 shown =
-        std::abs(size.x - width * fit) < rounding && std::abs(size.y - height * fit) < rounding
-            ? size
-            : ImVec2{std::round(width * fit), std::round(height * fit)};
-    const ImVec2 corner{from.x + std::floor((size.x - shown.x) / 2),
-                        from.y + std::floor((size.y - shown.y) / 2)};
+    const EyeArea shown = fitted(in.from, in.size, {picture.width(), picture.height()});
     const bool live = desk.status.connection == model::Connection::connected;
     const ImU32 tint = live ? IM_COL32_WHITE : IM_COL32(150, 150, 150, 255);
     // NOLINTNEXTLINE(performance-no-int-to-ptr): so ImGui's handle of a texture is made
-    const auto texture = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(desk.picture.id()));
-    ImGui::GetWindowDrawList()->AddImage(texture, corner, {corner.x + shown.x, corner.y + shown.y}, {0, 0},
-                                         {1, 1}, tint);
+    const auto texture = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture.id()));
+    const ImVec2 to{shown.from.x + shown.size.x, shown.from.y + shown.size.y};
+    ImGui::GetWindowDrawList()->AddImage(texture, shown.from, to, {0, 0}, {1, 1}, tint);
+}
+
+// What `draw` does is seen by those eyes that see the area.
+template <class Draw>
+void seen_in(Desk& desk, const EyeArea& area, const Draw& draw) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    if (area.only) {
+        desk.gates.only(list, *area.only);
+    }
+    draw();
+    if (area.only) {
+        EyeGates::both(list);
+    }
+}
+
+// Both eyes' pictures are one where they are not in one place.
+void draw_pictures(Desk& desk, const std::vector<EyeArea>& areas, const EyeArea& whole) {
+    if (desk.shown != image::StereoMode::quad_buffered) {
+        draw_picture(desk, desk.picture, whole);
+        return;
+    }
+    seen_in(desk, areas[0], [&] { draw_picture(desk, desk.picture, areas[0]); });
+    seen_in(desk, areas[1], [&] { draw_picture(desk, desk.right_picture, areas[1]); });
+}
+
+// Of an area, what pictures may fill: with a window for each eye those say what shape they have.
+EyeArea picture_place(const Desk& desk, ImVec2 from, ImVec2 size) {
+    return desk.eye_window ? fitted(from, size, *desk.eye_window) : EyeArea{from, size, {}};
 }
 
 // What is drawn over each picture that is one eye's alone.
@@ -66,16 +88,18 @@ void over_pictures(Desk& desk, const std::vector<EyeArea>& areas, const EyeArea&
     const view::Camera camera = view::camera(desk.wish.viewpoint, desk.lattice());
     const std::vector<view::Camera> eyes = cameras_of_areas(desk.shown, camera, desk.eyes);
     for (std::size_t n = 0; n < eyes.size(); ++n) {
-        draw_missing(desk, areas[n], eyes[n]);
-        if (desk.boxed || desk.cropping) {
-            draw_box_edges(desk, areas[n], eyes[n]);
-        }
-        if (desk.boxed) {
-            draw_edge_scales(desk, areas[n], eyes[n], axes, n == 0);
-        }
-        if (desk.cropping) {
-            crop_handles(desk, areas[n], eyes[n], static_cast<int>(n));
-        }
+        seen_in(desk, areas[n], [&] {
+            draw_missing(desk, areas[n], eyes[n]);
+            if (desk.boxed || desk.cropping) {
+                draw_box_edges(desk, areas[n], eyes[n]);
+            }
+            if (desk.boxed) {
+                draw_edge_scales(desk, areas[n], eyes[n], axes, n == 0);
+            }
+            if (desk.cropping) {
+                crop_handles(desk, areas[n], eyes[n], static_cast<int>(n));
+            }
+        });
     }
 }
 
@@ -134,8 +158,10 @@ float view_line(const Desk& desk, float right, float y) {
 }  // namespace
 
 void picture_area(Desk& desk, ImVec2 from, ImVec2 size) {
-    const std::vector<EyeArea> areas = eye_areas(desk.shown, from, size);
-    const view::ImageSize pixels = picture_size(areas.front().size, desk.shown);
+    const EyeArea place = picture_place(desk, from, size);
+    const std::vector<EyeArea> areas = eye_areas(desk.shown, place.from, place.size);
+    const view::ImageSize pixels = desk.eye_window ? within_bounds(*desk.eye_window, desk.shown)
+                                                   : picture_size(areas.front().size, desk.shown);
     desk.dragging = desk.dragging || (pixels != desk.wish.size && !desk.picture.empty());
     desk.wish.size = pixels;
     ImGui::SetNextWindowPos(from);
@@ -143,7 +169,7 @@ void picture_area(Desk& desk, ImVec2 from, ImVec2 size) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::backdrop);
     ImGui::Begin("picture area", nullptr, bare | ImGuiWindowFlags_NoScrollWithMouse);
-    draw_picture(desk, from, size);
+    draw_pictures(desk, areas, place);
     const EyeArea axes = axes_area(desk, from, size);
     over_pictures(desk, areas, axes);
     navigate_by_mouse(desk, areas, from, size);

@@ -14,8 +14,14 @@ namespace {
 
 // Of no mode, and then in the order of the modes.
 constexpr std::array labels{
-    "Off",      "Side by side", "One below the other", "Red and cyan glasses", "Rows by turns",
-    "Left eye", "Right eye"};
+    "Off",      "Side by side", "One below the other",   "Red and cyan glasses", "Rows by turns",
+    "Left eye", "Right eye",    "A buffer for each eye", "A window for each eye"};
+
+// Why a mode cannot be had, or empty.
+const char* missing_for(const Desk& desk, std::size_t n) {
+    const bool is_quad = n > 0 && static_cast<image::StereoMode>(n - 1) == image::StereoMode::quad_buffered;
+    return is_quad && !desk.has_quad_buffers ? "this display has no buffer for each eye" : "";
+}
 
 void mode_choice(Desk& desk) {
     const std::size_t now = desk.shown ? static_cast<std::size_t>(*desk.shown) + 1 : 0;
@@ -29,11 +35,16 @@ void mode_choice(Desk& desk) {
         ImGui::CloseCurrentPopup();
     }
     for (std::size_t n = 0; n < labels.size(); ++n) {
-        if (ImGui::Selectable(labels[n], n == now)) {
+        const std::string missing = missing_for(desk, n);
+        const auto flags = missing.empty() ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
+        if (ImGui::Selectable(labels[n], n == now, flags)) {
             desk.show(n == 0 ? Shown() : static_cast<image::StereoMode>(n - 1));
         }
         const std::string name(n == 0 ? "off" : image::stereo_mode_names[n - 1]);
         desk.controls.note("stereo/mode/" + name);
+        if (!missing.empty() && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+            ImGui::SetTooltip("%s", missing.c_str());
+        }
     }
     ImGui::EndCombo();
 }
@@ -103,6 +114,9 @@ void stereo_section(Desk& desk) {
         }
         desk.controls.note("stereo/defaults");
         small_text(desk, theme::muted, parallax_text(desk, camera));
+        if (desk.eye_window) {
+            small_text(desk, theme::muted, "F11 has a window fill its display");
+        }
     }
     ImGui::EndDisabled();
 }

@@ -56,7 +56,11 @@ Connecting connecting_to(const Place& place, link::Secret secret, std::string se
 }
 
 Viewer::Viewer(Window& window, ViewerOptions options, std::optional<Connecting> first)
-    : window_(window), options_(std::move(options)), app_options_(options_.app), recent_file_(Window::wake) {
+    : window_(window),
+      options_(std::move(options)),
+      app_options_(options_.app),
+      recent_file_(Window::wake),
+      eye_windows_(window) {
     const bool asks = !first;
     begin(std::move(first));
     if (asks) {
@@ -70,6 +74,7 @@ base::Status Viewer::run() {
         window_.begin(options_.screenshot.empty() ? app_->patience() : std::min(app_->patience(), soon));
         collect();
         app_->desk().in_dialog = dialog_.is_open();
+        eye_windows_.attend(app_->desk());
         app_->pass(take_dropped_sessions());
         const ConnectionDialog::Wish wish =
             dialog_.draw(app_->desk(), recent_.list.all(), recent_.fault, connecting_.has_value());
@@ -78,11 +83,12 @@ base::Status Viewer::run() {
                 return written;
             }
         }
-        window_.draw();
+        window_.draw(app_->desk().shown == image::StereoMode::quad_buffered);
         if (auto done = screenshot()) {
             return *std::move(done);
         }
         window_.show();
+        eye_windows_.show(app_->desk());
         watch();
         act(wish);
     }
@@ -174,6 +180,8 @@ void Viewer::begin(std::optional<Connecting> next) {
     if (connecting_) {
         app_->desk().waiting_note = connecting_->note;
         app_options_.scene.reset();
+        app_options_.pair.reset();
+        app_options_.crop.reset();
     }
     if (shown) {
         std::tie(app_->desk().panel, app_->desk().dock, app_->desk().dock_tab) = *shown;

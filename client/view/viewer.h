@@ -10,6 +10,7 @@
 #include "client/model/recent.h"
 #include "client/view/app.h"
 #include "client/view/connection_dialog.h"
+#include "client/view/eye_windows.h"
 #include "client/view/recent_file.h"
 
 namespace shearwater::ui {
@@ -28,7 +29,7 @@ struct Connecting {
 Connecting connecting_to(const model::Place& place, link::Secret secret, std::string secret_file);
 
 struct ViewerOptions {
-    AppOptions app;          // its scene is the first cube's
+    AppOptions app;          // its scene, pair and crop are the first cube's
     std::string controls;    // a file that tells where the controls are; none when empty
     std::string screenshot;  // a file to write the window to once a whole high picture is seen; then it ends
 };
@@ -63,6 +64,7 @@ class Viewer {
     int settled_passes_ = 0;
     std::vector<std::future<void>> endings_;  // of links, which may take a while
     std::unique_ptr<App> app_;
+    EyeWindows eye_windows_;
 };
 
 }  // namespace shearwater::ui

@@ -37,7 +37,14 @@ base::Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options)
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 2);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    // A display that can show a buffer to each eye has to be asked for them before it is known what for.
+    glfwWindowHint(GLFW_STEREO, GLFW_TRUE);
     GLFWwindow* window = glfwCreateWindow(options.width, options.height, "Shearwater", nullptr, nullptr);
+    const bool has_quad_buffers = window != nullptr;
+    glfwWindowHint(GLFW_STEREO, GLFW_FALSE);
+    if (window == nullptr) {
+        window = glfwCreateWindow(options.width, options.height, "Shearwater", nullptr, nullptr);
+    }
     if (window == nullptr) {
         base::Error error = failed();
         glfwTerminate();
@@ -45,10 +52,11 @@ base::Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options)
     }
     glfwSetWindowSizeLimits(window, 480, 320, GLFW_DONT_CARE, GLFW_DONT_CARE);
     const float scale = options.scale > 0 ? options.scale : display_scale(window);
-    return std::unique_ptr<Window>(new Window(window, scale));
+    return std::unique_ptr<Window>(new Window(window, scale, has_quad_buffers));
 }
 
-Window::Window(GLFWwindow* window, float scale) : window_(window), scale_(scale) {
+Window::Window(GLFWwindow* window, float scale, bool has_quad_buffers)
+    : window_(window), scale_(scale), has_quad_buffers_(has_quad_buffers) {
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
     ImGui::CreateContext();
@@ -82,9 +90,13 @@ void Window::wake() {
 }
 
 void Window::on_key(GLFWwindow* window, int key, int, int action, int mods) {
-    if (action != GLFW_RELEASE) {
-        static_cast<Window*>(glfwGetWindowUserPointer(window))
-            ->keys_.push_back({key, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0});
+    auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
+    if (key == GLFW_KEY_F11) {
+        if (action == GLFW_PRESS) {
+            self.full_screen_.toggle(window);
+        }
+    } else if (action != GLFW_RELEASE) {
+        self.keys_.push_back({key, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0});
     }
 }
 
@@ -109,8 +121,42 @@ void Window::begin(double wait_seconds) {
     ImGui::NewFrame();
 }
 
-void Window::draw() {
+GLFWwindow* Window::open_beside(const char* title, int width, int height) {
+    glfwWindowHint(GLFW_FOCUS_ON_SHOW, GLFW_FALSE);
+    GLFWwindow* const beside = glfwCreateWindow(width, height, title, nullptr, window_);
+    glfwWindowHint(GLFW_FOCUS_ON_SHOW, GLFW_TRUE);
+    if (beside != nullptr) {
+        glfwSetWindowUserPointer(beside, this);
+        glfwSetKeyCallback(beside, on_key);
+    }
+    return beside;
+}
+
+void Window::close_beside(GLFWwindow* beside) {
+    full_screen_.forget(beside);
+    glfwDestroyWindow(beside);
+    draw_here();
+}
+
+void Window::draw_here() {
+    glfwMakeContextCurrent(window_);
+}
+
+void Window::draw(bool for_each_eye) {
     ImGui::Render();
+    if (for_each_eye && has_quad_buffers_) {
+        glDrawBuffer(GL_BACK_RIGHT);
+        draw_for(Eye::right);
+        glDrawBuffer(GL_BACK_LEFT);
+    }
+    draw_for(Eye::left);
+    if (has_quad_buffers_) {
+        glDrawBuffer(GL_BACK);
+    }
+}
+
+void Window::draw_for(Eye eye) {
+    gates_.open(eye);
     int width = 0, height = 0;
     glfwGetFramebufferSize(window_, &width, &height);
     const ImVec4 clear = ImGui::ColorConvertU32ToFloat4(theme::backdrop);

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "client/view/eye_gates.h"
+#include "client/view/full_screen.h"
 #include "client/view/theme.h"
 #include "common/base/result.h"
 #include "common/image/image.h"
@@ -26,7 +28,7 @@ struct KeyPress {
     bool shift, control;
 };
 
-// One at a time; everything from the thread that opened it, except wake().
+// One at a time; everything from the thread that opened it, except wake(). F11 has it fill its display.
 class Window {
   public:
     static base::Result<std::unique_ptr<Window>> open(const WindowOptions& options);
@@ -44,10 +46,24 @@ class Window {
     bool is_down(int key) const;
     // Files that were dropped on the window since the last call.
     std::vector<std::string> take_drops() { return std::exchange(drops_, {}); }
-    // Draws the pass to the hidden buffer; the picture is seen after show().
-    void draw();
+    // Whether the display shows two buffers by turns, one for each eye.
+    bool has_quad_buffers() const { return has_quad_buffers_; }
+    // What of a pass one eye alone sees; where there is one buffer it is the left one's.
+    EyeGates& gates() { return gates_; }
+    // Draws the pass to the hidden buffer, or to that of each eye; the picture is seen after show().
+    void draw(bool for_each_eye = false);
+    // Draws it as one eye sees it, to the buffer that is drawn to now.
+    void draw_for(Eye eye);
     image::Image<image::Rgba8> read_pixels() const;
     void show();
+
+    // A plain window that shares the textures of this one, and whose keys count as this one's; null where
+    // there can be none. It has to be closed before this one.
+    GLFWwindow* open_beside(const char* title, int width, int height);
+    void close_beside(GLFWwindow* beside);
+    // From another window's context back to this one's.
+    void draw_here();
+
     // Ends a wait in begin(); from any thread while a window is open.
     static void wake();
 
@@ -55,13 +71,16 @@ class Window {
     const theme::Fonts& fonts() const { return fonts_; }
 
   private:
-    Window(GLFWwindow* window, float scale);
+    Window(GLFWwindow* window, float scale, bool has_quad_buffers);
     static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
     static void on_drop(GLFWwindow* window, int count, const char** paths);
 
     GLFWwindow* window_;
     float scale_;
+    const bool has_quad_buffers_;
     theme::Fonts fonts_;
+    EyeGates gates_;
+    FullScreen full_screen_;
     std::vector<KeyPress> keys_;
     std::vector<std::string> drops_;
 };

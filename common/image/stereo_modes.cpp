@@ -77,7 +77,7 @@ std::optional<StereoMode> stereo_mode(std::string_view name) {
 }
 
 view::ImageSize composed_size(const view::ImageSize& eye, StereoMode mode) {
-    return {mode == StereoMode::side_by_side ? 2 * eye.width : eye.width,
+    return {mode == StereoMode::side_by_side || is_apart(mode) ? 2 * eye.width : eye.width,
             mode == StereoMode::top_bottom ? 2 * eye.height : eye.height};
 }
 
@@ -94,6 +94,8 @@ Image<Rgba8> composed(const Image<Rgba8>& left, const Image<Rgba8>& right, Stere
         };
         switch (mode) {
             case StereoMode::side_by_side:
+            case StereoMode::quad_buffered:
+            case StereoMode::two_windows:
                 put(left, 0, y);
                 put(right, left.width(), y);
                 break;

@@ -17,11 +17,19 @@ enum class StereoMode {
     interlaced,    // rows 0, 2, 4 ... are the left eye's, of a display that polarises its rows by turns
     left,
     right,
+    // Each eye's by itself, as the device takes it; where one picture is wanted they are side by side:
+    quad_buffered,  // a buffer an eye, of a display that shows them by turns to shutter glasses
+    two_windows,    // a window an eye, for a projector each
 };
 // In the order of StereoMode.
-inline constexpr std::array<std::string_view, 6> stereo_mode_names{"side-by-side", "top-bottom", "anaglyph",
-                                                                   "interlaced",   "left",       "right"};
+inline constexpr std::array<std::string_view, 8> stereo_mode_names{
+    "side-by-side", "top-bottom", "anaglyph", "interlaced", "left", "right", "quad-buffered", "two-windows"};
 std::optional<StereoMode> stereo_mode(std::string_view name);
+
+// Whether a device is given both pictures as they are.
+constexpr bool is_apart(StereoMode mode) {
+    return mode == StereoMode::quad_buffered || mode == StereoMode::two_windows;
+}
 
 // Of a picture made from a pair of so large ones.
 view::ImageSize composed_size(const view::ImageSize& eye, StereoMode mode);

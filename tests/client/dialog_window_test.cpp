@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "tests/client/window_fixture.h"
+#include "tests/support/desktop.h"
 
 namespace shearwater::window_test {
 namespace {
@@ -131,6 +132,21 @@ TEST_F(DialogTest, WaitingIsCancelledAndRemembersNothing) {
     click("link/Connect to");
     click("connect/remove/0");
     EXPECT_TRUE(wait_for([this] { return recent().find("ann@big:") == std::string::npos; })) << recent();
+}
+
+// Dropped on the window as a file manager does it, once that asks and once in place of another.
+TEST_F(DialogTest, CubesAreDropped) {
+    open_asking();
+    control("connect/Connect");
+    ASSERT_EQ(test::drop_file(display_->name(), cube(), middle_x, middle_y), "");
+    const Picture first = seen("the dropped cube's picture");
+    const std::string other = (folder_ / "other.fits").string();
+    test::Process sample({program("shearwater"), "sample", "ball", "--size", "40", "40", "40", "-o", other},
+                         environment(), folder_ / "sample.log");
+    ASSERT_EQ(sample.wait(120s), 0) << text_of(folder_ / "sample.log");
+    ASSERT_EQ(test::drop_file(display_->name(), other, middle_x, middle_y), "");
+    other_than(first, "the other cube's picture");
+    EXPECT_TRUE(wait_for([&] { return recent().find("other.fits") != std::string::npos; })) << recent();
 }
 
 // Where nothing is named, `view` asks too; a secret's file is kept by its name.

@@ -2,6 +2,7 @@
 
 #include "common/scene/file.h"
 #include "tests/client/window_fixture.h"
+#include "tests/support/desktop.h"
 
 namespace shearwater::window_test {
 namespace {
@@ -204,6 +205,17 @@ TEST_F(NavigationTest, KeepsItsViewInFiles) {
     ASSERT_TRUE(of_window && of_still);
     ASSERT_EQ(of_window->width(), of_still->width());
     EXPECT_TRUE(std::ranges::equal(of_window->pixels(), of_still->pixels()));
+
+    // Dropped back in, it brings its view back.
+    display_->drag(1, middle_x, middle_y, -50, 20);
+    display_->key("period");
+    saved([](const scene::Scene& scene) { return scene.viewpoint.orbit.roll == 10; }, "turned on");
+    ASSERT_EQ(test::drop_file(display_->name(), picture, middle_x, middle_y), "");
+    ASSERT_TRUE(wait_for([&] {
+        display_->key("ctrl+s");
+        const auto now = scene::read((folder_ / "view.toml").string());
+        return now && *now == kept;
+    })) << "the picture's view is not back";
 
     // What is no session changes nothing.
     { std::ofstream(folder_ / "view.toml") << "version = 1\ncube = \""; }

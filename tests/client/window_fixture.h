@@ -133,7 +133,7 @@ class WindowTest : public testing::Test {
         if (const std::string why = test::Display::unavailable(); !why.empty()) {
             GTEST_SKIP() << why;
         }
-        display_ = std::make_unique<test::Display>(width, height);
+        display_ = std::make_unique<test::Display>(screen_width_, height);
         const auto cube = (folder_ / "cube.fits").string();
         test::Process sample(
             {program("shearwater"), "sample", "hi-galaxy", "--size", "48", "40", "44", "-o", cube},
@@ -273,6 +273,7 @@ class WindowTest : public testing::Test {
         display_->key("Return");
     }
 
+    int screen_width_ = width;
     std::string secret_ = "window-test-secret-0123456789";
     test::TemporaryFolder folder_;
     int port_ = free_port();

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "tests/client/window_fixture.h"
+#include "tests/support/desktop.h"
 
 namespace shearwater::window_test {
 namespace {
@@ -126,6 +127,84 @@ TEST_F(WindowStereoTest, PairsAreShownAsTheSectionSays) {
     click("stereo/mode");
     click("stereo/mode/off");
     like(one, "one picture again");
+}
+
+// Beside the desk's window, one for each eye; both are of one pair, and go when one is closed.
+class EyeWindowsTest : public WindowStereoTest {
+  protected:
+    static constexpr int eye_width = 300, eye_height = 200;
+
+    EyeWindowsTest() { screen_width_ = width + eye_width; }
+
+    // On the right edge of the screen, the left eye's above the right one's.
+    void place_windows() {
+        display_->place_window("left eye", width, 0, eye_width, eye_height);
+        display_->place_window("right eye", width, eye_height, eye_width, eye_height);
+    }
+    struct Spot {
+        double light = 0, x = 0;  // of its middle, from the window's left
+    };
+    static Spot spot_of(const Picture& screen, int from_y) {
+        Spot spot;
+        for (int y = from_y; y < from_y + eye_height; ++y) {
+            for (int x = 0; x < eye_width; ++x) {
+                const int b = brightness(screen.at(width + x, y));
+                spot.light += b > 30 ? b : 0;
+                spot.x += b > 30 ? b * x : 0;
+            }
+        }
+        spot.x /= std::max(spot.light, 1.0);
+        return spot;
+    }
+    // Once both show something, and that stays.
+    std::pair<Spot, Spot> spots(const std::function<bool(double)>& apart_by) {
+        std::pair<Spot, Spot> last;
+        EXPECT_TRUE(wait_for([&] {
+            std::this_thread::sleep_for(300ms);
+            const Picture screen = display_->grab();
+            const auto now = std::pair(spot_of(screen, 0), spot_of(screen, eye_height));
+            const bool stays = now.first.x == last.first.x && now.second.x == last.second.x;
+            last = now;
+            return stays && now.first.light > 1e4 && now.second.light > 1e4 &&
+                   apart_by(now.first.x - now.second.x);
+        })) << "left at "
+            << last.first.x << ", right at " << last.second.x << "\n"
+            << text_of(folder_ / "client.log");
+        return last;
+    }
+};
+
+TEST_F(EyeWindowsTest, EachEyeHasAWindow) {
+    start_tree();
+    open_window({"--stereo", "two-windows", "--eye-separation", "8", "--convergence", "400"});
+    const Picture desk = lit("the left eye's picture at the desk");
+    place_windows();
+    // What is nearer than where the axes meet is seen farther to the right by the left eye.
+    const auto [one, other] = spots([](double apart) { return apart > 3; });
+    EXPECT_NEAR(other.light / one.light, 1, 0.2);
+
+    // The desk steers both.
+    display_->drag(1, middle_x, middle_y, 120, 40);
+    other_than(desk, "a turn by the mouse");
+    spots([](double apart) { return apart > 3; });
+
+    ASSERT_EQ(test::ask_to_close(display_->name(), "right eye"), "");
+    EXPECT_TRUE(wait_for([&] {
+        const Picture screen = display_->grab();
+        return spot_of(screen, 0).light == 0 && spot_of(screen, eye_height).light == 0;
+    })) << "an eye's window stays";
+    lit("one picture at the desk");
+    EXPECT_TRUE(window_->running());
+}
+
+// Nothing here has such buffers: what asks for them is shown otherwise, and told so.
+TEST_F(WindowStereoTest, BuffersForEachEyeAreNotToBeHadHere) {
+    start_tree();
+    open_window({"--stereo", "quad-buffered"});
+    const Picture beside = lit("two pictures");
+    const double on_left = light_between(beside, left, middle_x);
+    const double on_right = light_between(beside, middle_x, 2 * middle_x - left);
+    EXPECT_NEAR(on_right / on_left, 1, 0.2);
 }
 
 }  // namespace

@@ -233,6 +233,10 @@ TEST_F(Commands, MistakesGetOneLine) {
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --classify", "classify");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --classify preintegrated", "classify");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --classify post --classify post", "classify");
+    expect_mistake("view " + cube_ + " --crop 0 5 0 5 0 999", "crop");
+    expect_mistake("view " + cube_ + " --crop 0 5 0 5", "crop");
+    expect_mistake("view " + cube_ + " --stereo cinema", "stereo");
+    expect_mistake("view " + cube_ + " --convergence 5", "stereo");
     expect_mistake("view " + cube_ + " --classify ''", "classify");
     expect_mistake("bench frame --classify both", "classify");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --tree 2", "tree");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -41,6 +42,10 @@ TEST(StereoModes, PutEveryPixelInItsPlace) {
     const auto beside = composed(left, right, StereoMode::side_by_side);
     const auto below = composed(left, right, StereoMode::top_bottom);
     const auto rows = composed(left, right, StereoMode::interlaced);
+    for (const StereoMode apart : {StereoMode::quad_buffered, StereoMode::two_windows}) {
+        const auto picture = composed(left, right, apart);
+        EXPECT_TRUE(std::ranges::equal(beside.pixels(), picture.pixels()));
+    }
     ASSERT_EQ(beside.width(), 14);
     ASSERT_EQ(beside.height(), 5);
     ASSERT_EQ(below.width(), 7);

@@ -205,6 +205,11 @@ void Display::release(int button) {
     park();
 }
 
+void Display::place_window(const std::string& title, int x, int y, int width, int height) {
+    xdotool({"search", "--sync", "--name", title, "windowmove", std::to_string(x), std::to_string(y),
+             "windowsize", std::to_string(width), std::to_string(height)});
+}
+
 void Display::click(int x, int y, int times, int button) {
     const std::string which = std::to_string(button);
     std::vector<std::string> words{"mousemove", std::to_string(x), std::to_string(y), "sleep", "0.2"};

@@ -66,6 +66,9 @@ class Display {
     void move(int x, int y) { xdotool({"mousemove", std::to_string(x), std::to_string(y)}); }
     void release(int button);
 
+    // A window by words of its title, once it is there.
+    void place_window(const std::string& title, int x, int y, int width, int height);
+
   private:
     void park();
     void xdotool(const std::vector<std::string>& arguments);

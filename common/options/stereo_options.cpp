@@ -1,9 +1,9 @@
-#include "deploy/stereo_options.h"
+#include "common/options/stereo_options.h"
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-namespace shearwater::deploy {
+namespace shearwater::options {
 
 void StereoOptions::add_to(CLI::App& app, const std::string& group) {
     std::vector<std::string> names{"off"};
@@ -26,6 +26,11 @@ void StereoOptions::add_to(CLI::App& app, const std::string& group) {
     app.add_flag("--swap-eyes", eyes.swap, "show each eye what is the other's")->needs(stereo)->group(group);
 }
 
+void StereoOptions::take(const scene::Pair& pair) {
+    shown = image::stereo_mode_names[static_cast<std::size_t>(pair.mode)];
+    eyes = pair.eyes;
+}
+
 std::vector<std::string> StereoOptions::arguments() const {
     if (!mode()) {
         return {};
@@ -43,4 +48,4 @@ std::vector<std::string> StereoOptions::arguments() const {
     return all;
 }
 
-}  // namespace shearwater::deploy
+}  // namespace shearwater::options

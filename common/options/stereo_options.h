@@ -7,12 +7,12 @@
 
 #include "common/image/stereo_modes.h"
 #include "common/options/cli_fwd.h"
+#include "common/scene/scene.h"
 #include "common/view/stereo.h"
 
-namespace shearwater::deploy {
+namespace shearwater::options {
 
-// --stereo off|side-by-side|top-bottom|anaglyph|interlaced|left|right, --eye-separation, --convergence,
-// --swap-eyes.
+// --stereo MODE, or off, --eye-separation, --convergence and --swap-eyes.
 struct StereoOptions {
     std::string shown = "off";
     view::StereoSettings eyes;
@@ -20,12 +20,16 @@ struct StereoOptions {
     void add_to(CLI::App& app, const std::string& group = "Options");
 
     std::vector<std::string> arguments() const;  // as they are given
+    void take(const scene::Pair& pair);
 
     // Nothing where one picture is wanted.
     std::optional<image::StereoMode> mode() const { return image::stereo_mode(shown); }
     std::optional<view::StereoSettings> settings() const {
         return mode() ? std::optional(eyes) : std::nullopt;
     }
+    std::optional<scene::Pair> pair() const {
+        return mode() ? std::optional(scene::Pair{eyes, *mode()}) : std::nullopt;
+    }
 };
 
-}  // namespace shearwater::deploy
+}  // namespace shearwater::options
