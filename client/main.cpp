@@ -19,7 +19,7 @@ constexpr int unusable = 2;
 
 struct Options {
     std::vector<std::string> command;
-    std::string connect, place, secret_file, screenshot, controls, session;
+    std::string connect, place, secret_file, screenshot, controls, pass_log, session;
     std::string size = "1280x800";
     options::DrawingOptions drawing;
     options::StereoOptions stereo;
@@ -63,6 +63,8 @@ void declare(CLI::App& app, Options& options) {
     options::add_session(app, options.session, said_by_session);
     app.add_option("--controls", options.controls,
                    "Keep in this file where each control is, for scripts: NAME X Y WIDTH HEIGHT");
+    app.add_option("--pass-log", options.pass_log,
+                   "Keep in this file how often the window is drawn: SECOND PASSES PICTURES, a line each");
     app.add_option("--screenshot", options.screenshot,
                    "Write the window to this PNG file once the first whole picture is seen, and end");
     app.footer("With neither a server nor a command the window asks where the cube is.");
@@ -158,6 +160,7 @@ base::Status run(Options options) {
                                .pair = options.stereo.pair(),
                                .crop = options.crop.box()},
                        .controls = options.controls,
+                       .pass_log = options.pass_log,
                        .screenshot = options.screenshot},
                       *std::move(first));
     return viewer.run();

@@ -67,6 +67,7 @@ constexpr HelpLine help_lines[] = {
     {"Ctrl drag on the plot", "snap to edges and round values"},
     {"Delete", "delete the selected pin"},
     {"Tab", "hide or show this panel"},
+    {"F11", "fill the display, or no longer"},
     {"Ctrl Q", "quit"},
 };
 

@@ -60,7 +60,8 @@ Viewer::Viewer(Window& window, ViewerOptions options, std::optional<Connecting> 
       options_(std::move(options)),
       app_options_(options_.app),
       recent_file_(Window::wake),
-      eye_windows_(window) {
+      eye_windows_(window),
+      pass_log_(options_.pass_log) {
     const bool asks = !first;
     begin(std::move(first));
     if (asks) {
@@ -69,6 +70,9 @@ Viewer::Viewer(Window& window, ViewerOptions options, std::optional<Connecting> 
 }
 
 base::Status Viewer::run() {
+    if (pass_log_.is_bad()) {
+        return base::error(base::Code::io, "write " + options_.pass_log, "it cannot be opened");
+    }
     while (!window_.is_closing()) {
         constexpr double soon = 0.03;
         window_.begin(options_.screenshot.empty() ? app_->patience() : std::min(app_->patience(), soon));
@@ -89,6 +93,8 @@ base::Status Viewer::run() {
         }
         window_.show();
         eye_windows_.show(app_->desk());
+        const std::uint64_t picture = app_->desk().picture_revision;
+        pass_log_.count(picture != std::exchange(shown_picture_, picture));
         watch();
         act(wish);
     }

@@ -11,6 +11,7 @@
 #include "client/view/app.h"
 #include "client/view/connection_dialog.h"
 #include "client/view/eye_windows.h"
+#include "client/view/pass_log.h"
 #include "client/view/recent_file.h"
 
 namespace shearwater::ui {
@@ -31,6 +32,7 @@ Connecting connecting_to(const model::Place& place, link::Secret secret, std::st
 struct ViewerOptions {
     AppOptions app;          // its scene, pair and crop are the first cube's
     std::string controls;    // a file that tells where the controls are; none when empty
+    std::string pass_log;    // a file that tells how often the window is drawn; none when empty
     std::string screenshot;  // a file to write the window to once a whole high picture is seen; then it ends
 };
 
@@ -65,6 +67,8 @@ class Viewer {
     std::vector<std::future<void>> endings_;  // of links, which may take a while
     std::unique_ptr<App> app_;
     EyeWindows eye_windows_;
+    PassLog pass_log_;
+    std::uint64_t shown_picture_ = 0;  // the last
 };
 
 }  // namespace shearwater::ui

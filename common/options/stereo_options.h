@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "common/image/stereo_modes.h"
 #include "common/options/cli_fwd.h"
 #include "common/scene/scene.h"
 #include "common/view/stereo.h"
