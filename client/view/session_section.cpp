@@ -19,7 +19,8 @@ void session_section(Desk& desk) {
     desk.controls.note("session/Redo");
     ImGui::EndDisabled();
     ImGui::SetNextItemWidth(-FLT_MIN);
-    ImGui::InputTextWithHint("##file", "a file for the session", desk.file.data(), desk.file.size());
+    ImGui::InputTextWithHint("##file", "a file for the session", desk.file.data(), desk.file.size(),
+                             ImGuiInputTextFlags_AutoSelectAll);
     desk.controls.note("session/file");
     ImGui::BeginDisabled(!desk.has_cube());
     const int pressed = button_row(desk, "session", {"Save", "Open", "Picture"});

@@ -51,6 +51,7 @@ void quality(Desk& desk) {
                            ImGuiSliderFlags_AlwaysClamp)) {
         desk.effort.target_rate = std::round(static_cast<double>(rate));
     }
+    desk.controls.note("quality/rate");
     if (ImGui::IsItemHovered()) {
         ImGui::SetTooltip("held while the view moves");
     }
@@ -64,6 +65,7 @@ void culling_switch(Desk& desk) {
     if (ImGui::Checkbox("leave out what is hidden", &on)) {
         wanted.kind = on ? culling::Kind::opof : culling::Kind::off;
     }
+    desk.controls.note("quality/culling");
     const auto& frame = desk.status.frame;
     if (on && frame && frame->opaque_bricks > 0) {
         const double share =

@@ -1,52 +1,13 @@
 // Every way to move the view in a real window, and what is kept of it in files.
 
-#include "common/scene/file.h"
-#include "tests/client/window_fixture.h"
+#include "tests/client/session_window_fixture.h"
 #include "tests/support/desktop.h"
 
 namespace shearwater::window_test {
 namespace {
 
-class NavigationTest : public WindowTest {
+class NavigationTest : public SessionWindowTest {
   protected:
-    void SetUp() override {
-        WindowTest::SetUp();
-        if (IsSkipped()) {
-            return;
-        }
-        environment_ = environment();
-        environment_["XDG_STATE_HOME"] = (folder_ / "state").string();
-        start_tree();
-        open({"--session", first_session()});
-    }
-
-    std::string first_session() {
-        const std::string path = (folder_ / "view.toml").string();
-        scene::Scene scene{.size = {656, 614}};
-        scene.viewpoint.orbit.azimuth = 20;
-        EXPECT_TRUE(scene::write(path, scene));
-        return path;
-    }
-    void open(std::vector<std::string> more) {
-        window_ =
-            std::make_unique<test::Process>(client(std::move(more)), environment_, folder_ / "client.log");
-        control("camera/Fit");  // is there
-    }
-
-    // The view as the window saves it, once it `holds` and has come to rest.
-    scene::Scene saved(const std::function<bool(const scene::Scene&)>& holds, const char* what) {
-        scene::Scene last;
-        const bool seen = wait_for([&] {
-            const scene::Scene before = last;
-            display_->key("ctrl+s");
-            std::this_thread::sleep_for(100ms);
-            const auto read = scene::read((folder_ / "view.toml").string());
-            last = read ? *read : last;
-            return read && holds(*read) && *read == before;
-        });
-        EXPECT_TRUE(seen) << what << ":\n" << scene::to_toml(last) << text_of(folder_ / "client.log");
-        return last;
-    }
     // Of its viewpoint.
     view::Viewpoint viewpoint(const std::function<bool(const view::Viewpoint&)>& holds, const char* what) {
         return saved([&](const scene::Scene& scene) { return holds(scene.viewpoint); }, what).viewpoint;
@@ -65,8 +26,6 @@ class NavigationTest : public WindowTest {
         display_->type(text);
         display_->hold("Return", 400ms);  // the widget sees only what is down in a pass
     }
-
-    std::map<std::string, std::string> environment_;
 };
 
 TEST_F(NavigationTest, EveryControlMovesTheView) {
