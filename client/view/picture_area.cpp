@@ -94,7 +94,10 @@ void over_pictures(Desk& desk, const std::vector<EyeArea>& areas, const EyeArea&
                 draw_box_edges(desk, areas[n], eyes[n]);
             }
             if (desk.boxed) {
-                draw_edge_scales(desk, areas[n], eyes[n], axes, n == 0);
+                // Both eyes see the same numbers, though the axes are in the way of one.
+                const ImVec2 aside{axes.from.x + areas[n].from.x - areas[0].from.x,
+                                   axes.from.y + areas[n].from.y - areas[0].from.y};
+                draw_edge_scales(desk, areas[n], eyes[n], {aside, axes.size, {}}, n == 0);
             }
             if (desk.cropping) {
                 crop_handles(desk, areas[n], eyes[n], static_cast<int>(n));

@@ -70,9 +70,6 @@ Viewer::Viewer(Window& window, ViewerOptions options, std::optional<Connecting> 
 }
 
 base::Status Viewer::run() {
-    if (pass_log_.is_bad()) {
-        return base::error(base::Code::io, "write " + options_.pass_log, "it cannot be opened");
-    }
     while (!window_.is_closing()) {
         constexpr double soon = 0.03;
         window_.begin(options_.screenshot.empty() ? app_->patience() : std::min(app_->patience(), soon));
@@ -94,7 +91,9 @@ base::Status Viewer::run() {
         window_.show();
         eye_windows_.show(app_->desk());
         const std::uint64_t picture = app_->desk().picture_revision;
-        pass_log_.count(picture != std::exchange(shown_picture_, picture));
+        if (auto counted = pass_log_.count(picture != std::exchange(shown_picture_, picture)); !counted) {
+            return counted;
+        }
         watch();
         act(wish);
     }
