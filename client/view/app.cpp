@@ -151,7 +151,8 @@ void App::widgets() {
 void App::keys() {
     const bool typing = ImGui::GetIO().WantTextInput;
     for (const KeyPress& press : window_.take_keys()) {
-        if (!typing) {
+        // The dialog is left by its key, though a field of it has the keys.
+        if (!typing || (desk_.in_dialog && press.key == GLFW_KEY_ESCAPE)) {
             on_key(press);
         }
     }

@@ -10,6 +10,8 @@ using scene::Scene;
 
 class ControlsTest : public SessionWindowTest {
   protected:
+    ControlsTest() { screen_width_ = width + 200; }
+
     void does(const std::string& name, const std::function<bool(const Scene&)>& holds) {
         click(name);
         saved(holds, name.c_str());
@@ -44,6 +46,75 @@ TEST_F(ControlsTest, Camera) {
     click("camera/Fly");
     click("camera/Land");
     control("camera/Fly");
+}
+
+TEST_F(ControlsTest, Keys) {
+    const std::array<std::pair<double, double>, 6> sides{
+        {{90, 0}, {-90, 0}, {0, 90}, {0, -90}, {0, 0}, {180, 0}}};
+    const auto stands = [&](double azimuth, double elevation, const char* what) {
+        saved(
+            [=](const Scene& scene) {
+                const view::Orbit& orbit = scene.viewpoint.orbit;
+                return std::abs(orbit.azimuth - azimuth) < 1e-6 &&
+                       std::abs(orbit.elevation - elevation) < 1e-6;
+            },
+            what);
+    };
+    for (std::size_t n = 0; n < sides.size(); ++n) {
+        const std::string key = std::to_string(n + 1);
+        display_->tap(key);
+        stands(sides[n].first, sides[n].second, key.c_str());
+    }
+    display_->tap("5");
+    stands(0, 0, "from +z");
+    // Arrows turn what is seen, by five degrees.
+    for (const auto& [key, azimuth, elevation] : {std::tuple{"Left", -5, 0}, std::tuple{"Right", 0, 0},
+                                                  std::tuple{"Up", 0, 5}, std::tuple{"Down", 0, 0}}) {
+        display_->tap(key);
+        stands(azimuth, elevation, key);
+    }
+    const auto distance = [&](const std::function<bool(double)>& holds, const char* what) {
+        return saved([&](const Scene& scene) { return holds(scene.viewpoint.orbit.distance); }, what)
+            .viewpoint.orbit.distance;
+    };
+    display_->tap("equal");
+    const double near = distance([](double d) { return d > 0; }, "nearer");
+    display_->tap("minus");
+    distance([&](double d) { return d > near; }, "farther");
+
+    // Flying, to all sides.
+    display_->tap("f");
+    control("camera/Land");
+    view::Vec3 before = saved([](const Scene&) { return true; }, "aloft").viewpoint.orbit.target;
+    for (const char* key : {"s", "a", "d", "space", "x"}) {
+        display_->hold(key, 300ms);
+        before = saved([&](const Scene& scene) { return scene.viewpoint.orbit.target != before; }, key)
+                     .viewpoint.orbit.target;
+    }
+    display_->tap("f");
+    control("camera/Fly");
+
+    const std::string map =
+        view::colour_map_name(saved([](const Scene&) { return true; }, "colours").tf.colour_pins);
+    display_->tap("i");
+    saved([&](const Scene& scene) { return view::colour_map_name(scene.tf.colour_pins) != map; }, "reversed");
+    for (const auto& [key, hides] : {std::pair{"e", "editor/plot"}, std::pair{"Tab", "camera/Fit"}}) {
+        display_->tap(key);
+        gone(hides);
+        display_->tap(key);
+        control(hides);
+    }
+    display_->tap("ctrl+n");
+    control("connect/Close");
+    display_->tap("Escape");
+    gone("connect/Close");
+
+    const int at = control("camera/Fit").first;
+    display_->tap("F11");
+    EXPECT_TRUE(wait_for([&] { return control("camera/Fit").first > at; })) << "it does not fill the display";
+    display_->tap("F11");
+    EXPECT_TRUE(wait_for([&] { return control("camera/Fit").first == at; }))
+        << "it goes on filling the display";
 }
 
 TEST_F(ControlsTest, Limits) {

@@ -44,10 +44,21 @@ TEST_F(WindowTest, AFlightIsMadePlayedAndKept) {
         const auto read = flight::read_path(file);
         return read && read->keys.back().time > 2.1;
     }));
+    enter("movie/fps", "30");
+    click("movie/Save");
+    ASSERT_TRUE(wait_for([&] {
+        const auto read = flight::read_path(file);
+        return read && read->fps == 30;
+    }));
     click("movie/Delete");
     gone("movie/key/2");
     click("movie/Open");
     control("movie/key/2");
+    // A click on the strip is a time.
+    const Picture now = lit("the view of the path");
+    const auto [x, y] = control("movie/strip");
+    display_->click(x - 200, y + 40);
+    other_than(now, "the view at another time");
 }
 
 TEST_F(WindowTest, TheMachineIsShown) {
