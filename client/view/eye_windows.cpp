@@ -1,6 +1,5 @@
 #include "client/view/eye_windows.h"
 
-#define GL_GLEXT_PROTOTYPES
 #include <GLFW/glfw3.h>
 
 #include <algorithm>

@@ -7,7 +7,7 @@ namespace shearwater::ui {
 
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{1} << 20;
+constexpr std::size_t most_recent_bytes = std::size_t{1} << 20;
 
 std::optional<std::filesystem::path> file() {
     const auto folder = state_folder();
@@ -20,7 +20,7 @@ RecentFile::Outcome read(const std::filesystem::path& path) {
     if (std::filesystem::symlink_status(path, none).type() == std::filesystem::file_type::not_found) {
         return {};
     }
-    const auto text = base::read_text_file(path.string(), most_bytes);
+    const auto text = base::read_text_file(path.string(), most_recent_bytes);
     auto list = text ? model::recent_from_toml(*text, path.string()) : text.error();
     if (!list) {
         return {{}, "Recent connections are passed over: " + list.error().message()};

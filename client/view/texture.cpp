@@ -1,6 +1,5 @@
 #include "client/view/texture.h"
 
-#define GL_GLEXT_PROTOTYPES
 #include <GLFW/glfw3.h>
 
 namespace shearwater::ui {
