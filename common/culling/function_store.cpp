@@ -60,7 +60,7 @@ void FunctionStore::put(const FunctionKey& key, std::shared_ptr<const FunctionTa
     base::check(table->side == directions_.side() && table->block_count() == grid_.size() &&
                     table->codes.size() == grid_.size() * static_cast<std::size_t>(directions_.cells()),
                 "a table is of the whole grid and all directions");
-    combined_.reset();
+    asked_.reset();
     for (auto& [there, old] : tables_) {
         if (there == key) {
             old = std::move(table);
@@ -71,7 +71,7 @@ void FunctionStore::put(const FunctionKey& key, std::shared_ptr<const FunctionTa
 }
 
 void FunctionStore::erase(const FunctionKey& key) {
-    combined_.reset();
+    asked_.reset();
     std::erase_if(tables_, [&](const auto& table) { return table.first == key; });
 }
 
@@ -84,46 +84,58 @@ const FunctionTable* FunctionStore::find(const FunctionKey& key) const {
     return nullptr;
 }
 
-BlockRates FunctionStore::rates(const view::TransferFunction& tf, Footprint footprint, int level,
-                                double distance) {
-    if (!combined_ || combined_->tf != tf || combined_->footprint != footprint || combined_->level != level ||
-        combined_->distance != distance) {
-        std::vector<Member> members;
-        std::vector<Scaled> scaled;
-        float most = 0;
-        for (const Member& member : members_of(tf)) {
-            if (const FunctionTable* const table = find({footprint, member.basis, level})) {
-                // A density multiplies all extinctions alike.
-                scaled.push_back({table, rates_by_code([&](double rate) {
-                                      return tf.density * lifted(rate, member.height, distance);
-                                  })});
-                most = std::max(most, scaled.back().rate[most_code]);
-                members.push_back(member);
-            }
+FunctionStore::Combined FunctionStore::combined(Footprint footprint) const {
+    std::vector<Member> members;
+    std::vector<Scaled> scaled;
+    float most = 0;
+    for (const Member& member : members_of(asked_->tf)) {
+        if (const FunctionTable* const table = find({footprint, member.basis, asked_->level})) {
+            // A density multiplies all extinctions alike.
+            scaled.push_back({table, rates_by_code([&](double rate) {
+                                  return asked_->tf.density * lifted(rate, member.height, asked_->distance);
+                              })});
+            most = std::max(most, scaled.back().rate[most_code]);
+            members.push_back(member);
         }
-        combined_ = std::make_unique<Combined>(
-            Combined{tf, footprint, level, distance, most, std::move(scaled), Combination(members), {}});
     }
-    const auto& scaled = combined_->scaled;
-    return {directions_,
-            [this](std::span<const int> cells, base::Workers& workers) { return codes_of(cells, workers); },
-            scaled.size() == 1 ? scaled[0].rate : rates_by_code([&](double rate) {
-                return rate * static_cast<double>(combined_->most);
-            })};
+    return {footprint, most, std::move(scaled), Combination(members), {}};
 }
 
-std::vector<BlockRates::Codes> FunctionStore::codes_of(std::span<const int> cells, base::Workers& workers) {
+std::vector<BlockRates> FunctionStore::rates(const view::TransferFunction& tf, Kind kind, int level,
+                                             double distance) {
+    if (const Asked asked{tf, kind, level, distance}; asked_ != asked) {
+        asked_ = asked;
+        combined_.clear();
+        for (const Footprint footprint : footprints_of(kind)) {
+            combined_.push_back(combined(footprint));
+        }
+    }
+    std::vector<BlockRates> rates;
+    for (Combined& each : combined_) {
+        rates.push_back({each.footprint, directions_,
+                         [this, &each](std::span<const int> cells, base::Workers& workers) {
+                             return codes_of(each, cells, workers);
+                         },
+                         each.scaled.size() == 1 ? each.scaled[0].rate : rates_by_code([&](double rate) {
+                             return rate * static_cast<double>(each.most);
+                         })});
+    }
+    return rates;
+}
+
+std::vector<BlockRates::Codes> FunctionStore::codes_of(Combined& combined, std::span<const int> cells,
+                                                       base::Workers& workers) const {
     std::vector<BlockRates::Codes> codes;
-    if (combined_->scaled.size() == 1) {
+    if (combined.scaled.size() == 1) {
         for (const int cell : cells) {
-            codes.push_back(BlockRates::Codes(combined_->scaled[0].table->codes)
+            codes.push_back(BlockRates::Codes(combined.scaled[0].table->codes)
                                 .subspan(static_cast<std::size_t>(cell) * grid_.size(), grid_.size()));
         }
         return codes;
     }
     std::vector<std::pair<int, std::vector<std::uint8_t>*>> missing;
     for (const int cell : cells) {
-        std::vector<std::uint8_t>& of = combined_->of[cell];
+        std::vector<std::uint8_t>& of = combined.of[cell];
         if (of.empty()) {
             of.resize(grid_.size());
             missing.emplace_back(cell, &of);
@@ -132,21 +144,21 @@ std::vector<BlockRates::Codes> FunctionStore::codes_of(std::span<const int> cell
     }
     workers.for_each(static_cast<std::int64_t>(missing.size()), [&](std::int64_t n) {
         const auto& [cell, of] = missing[static_cast<std::size_t>(n)];
-        combine(cell, *of);
+        combine(combined, cell, *of);
     });
     return codes;
 }
 
-void FunctionStore::combine(int cell, std::span<std::uint8_t> codes) const {
+void FunctionStore::combine(const Combined& combined, int cell, std::span<std::uint8_t> codes) const {
     const std::size_t first = static_cast<std::size_t>(cell) * grid_.size();
     const CodesBelow codes_below(rates_by_code([](double rate) { return rate; }));
     // Rounded so that no code says more than it would times `most`.
-    const float scale = combined_->most > 0 ? (1 - 1e-6F) / combined_->most : 0;
-    Combination combination = combined_->combination;
-    std::vector<float> rates(combined_->scaled.size());
+    const float scale = combined.most > 0 ? (1 - 1e-6F) / combined.most : 0;
+    Combination combination = combined.combination;
+    std::vector<float> rates(combined.scaled.size());
     for (std::size_t block = 0; block < codes.size(); ++block) {
         for (std::size_t n = 0; n < rates.size(); ++n) {
-            const Scaled& scaled = combined_->scaled[n];
+            const Scaled& scaled = combined.scaled[n];
             rates[n] = scaled.rate[scaled.table->codes[first + block]];
         }
         codes[block] = codes_below(combination(rates) * scale);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/culling/block_grid.h"
@@ -12,13 +13,6 @@
 #include "common/culling/visible_blocks.h"
 
 namespace shearwater::culling {
-
-// What lines are taken together in a function: those through a block, over what they have in it, or those
-// that pass it half-way, between its planes.
-enum class Footprint { block, column };
-inline Footprint footprint_of(Kind kind) {
-    return kind == Kind::opof ? Footprint::column : Footprint::block;
-}
 
 // What a table is of: a basis, on a level of detail.
 struct FunctionKey {
@@ -40,33 +34,41 @@ class FunctionStore {
     // None where there is none.
     const FunctionTable* find(const FunctionKey& key) const;
 
-    // Of a transfer function on a level, by what is there now: a member without a table has no opacity.
-    // `distance` is the smallest of two voxels in the world. Lasts until the next put() or rates().
-    BlockRates rates(const view::TransferFunction& tf, Footprint footprint, int level, double distance);
+    // Of a transfer function on a level, of each footprint that a kind goes by, by what is there now: a
+    // member without a table has no opacity. `distance` is the smallest of two voxels in the world. They last
+    // until the next put(), erase() or rates().
+    std::vector<BlockRates> rates(const view::TransferFunction& tf, Kind kind, int level, double distance);
 
   private:
     struct Scaled {
         const FunctionTable* table;
         std::array<float, 256> rate;  // of a code, at the member's height
     };
-    struct Combined {
+    struct Asked {
         view::TransferFunction tf;
-        Footprint footprint;
+        Kind kind;
         int level;
         double distance;
+        bool operator==(const Asked&) const = default;
+    };
+    struct Combined {
+        Footprint footprint;
         float most;  // of a combined code
         std::vector<Scaled> scaled;
         Combination combination;
         std::map<int, std::vector<std::uint8_t>> of;  // by direction cell, unless there is but one table
     };
 
-    std::vector<BlockRates::Codes> codes_of(std::span<const int> cells, base::Workers& workers);
-    void combine(int cell, std::span<std::uint8_t> codes) const;
+    Combined combined(Footprint footprint) const;
+    std::vector<BlockRates::Codes> codes_of(Combined& combined, std::span<const int> cells,
+                                            base::Workers& workers) const;
+    void combine(const Combined& combined, int cell, std::span<std::uint8_t> codes) const;
 
     BlockGrid grid_;
     DirectionGrid directions_;
     std::vector<std::pair<FunctionKey, std::shared_ptr<const FunctionTable>>> tables_;
-    std::unique_ptr<Combined> combined_;  // of what was last asked for
+    std::optional<Asked> asked_;  // last, and what came of it:
+    std::vector<Combined> combined_;
 };
 
 }  // namespace shearwater::culling

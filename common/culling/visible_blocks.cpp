@@ -16,6 +16,9 @@ namespace {
 
 // So many beams along a face's longer side.
 constexpr int most_beams = 112;
+// Opacities are looked up for the nearest of some lengths of a step, and rounded: what a ray has gathered may
+// lack a part like this of its depth.
+constexpr double lack = 1.0 / 200;
 // Where samples are told from one another is rounded by less than this, in voxels.
 constexpr double slack = 1.0 / 64;
 
@@ -33,27 +36,37 @@ struct Run {
     bool empty() const { return last < first; }
     bool contains(std::int64_t block) const { return first <= block && block <= last; }
 };
-// What a beam crosses of a slab along u or v.
-struct Crossing {
-    Run met;  // of the grid
-    Run by;   // whose functions count, if any do
-};
 
 // Along u or v: where a beam's rays are, at + slope * w.
 struct Side {
     Interval at, slope;
 };
 
+// Where a side has a slab's functions count, and whose.
+struct Counted {
+    Run by;           // or none
+    float near, far;  // of the slab, how far along the principal axis in front of where that is counted from
+};
+
+// What functions of one footprint say along the beams of a face.
+struct Said {
+    Footprint footprint;
+    const std::array<float, 256>& rate;
+    std::vector<Counted> u, v;               // of a side's slabs, one side after the other
+    std::vector<const std::uint8_t*> codes;  // of each beam's directions, one beam after the other
+    std::vector<std::size_t> first_of;       // of each beam
+};
+
 class FacePass {
   public:
     FacePass(const Factorisation& factorisation, const Face& face, const BlockGrid& grid,
-             const BlockRates& rates, const Settings& settings, BlockSet& visible, base::Workers& workers)
+             std::span<const BlockRates> rates, const Settings& settings, BlockSet& visible,
+             base::Workers& workers)
         : f_(factorisation),
           face_(face),
           grid_(grid),
           kind_(settings.kind),
-          depth_(-std::log1p(-settings.threshold)),
-          rate_(rates.rate),
+          depth_(-std::log1p(-settings.threshold) * (1 + lack)),
           visible_(visible),
           step_(std::max(factorisation.slice_pitch(), 1.0)) {
         const volume::Box shown = factorisation.shown();
@@ -71,9 +84,17 @@ class FacePass {
         u_ = sides(face.u_axis(), face.origin.x, face.pitch.x, face.width, pixels);
         v_ = sides(face.v_axis(), face.origin.y, face.pitch.y, face.height, pixels);
         lay_slabs();
-        u_crossings_ = crossings(u_, face.u_axis());
-        v_crossings_ = crossings(v_, face.v_axis());
-        find_functions(rates, workers);
+        u_met_ = met(u_, face.u_axis());
+        v_met_ = met(v_, face.v_axis());
+        for (const BlockRates& each : rates) {
+            said_.push_back({each.footprint,
+                             each.rate,
+                             counted(u_, face.u_axis(), each.footprint),
+                             counted(v_, face.v_axis(), each.footprint),
+                             {},
+                             {}});
+            find_functions(each, said_.back(), workers);
+        }
     }
 
     std::int64_t rows() const { return static_cast<std::int64_t>(v_.size()); }
@@ -135,7 +156,7 @@ class FacePass {
     }
 
     // All that will be needed, before several threads do.
-    void find_functions(const BlockRates& rates, base::Workers& workers) {
+    void find_functions(const BlockRates& rates, Said& said, base::Workers& workers) const {
         // Of a row's beams, one after the other, and where each one's begin.
         struct Row {
             std::vector<int> cells;
@@ -173,13 +194,13 @@ class FacePass {
         }
         for (const Row& row : rows_of_cells) {
             for (const std::size_t first : row.first_of) {
-                first_of_.push_back(codes_.size() + first);
+                said.first_of.push_back(said.codes.size() + first);
             }
             for (const int cell : row.cells) {
-                codes_.push_back(by_cell[static_cast<std::size_t>(cell)]);
+                said.codes.push_back(by_cell[static_cast<std::size_t>(cell)]);
             }
         }
-        first_of_.push_back(codes_.size());
+        said.first_of.push_back(said.codes.size());
     }
 
     // Where the beam is on the planes from w0 to w1.
@@ -197,31 +218,68 @@ class FacePass {
         return {block_at(interval.lo), block_at(interval.hi)};
     }
 
-    // Of each of some sides, of each slab.
-    std::vector<Crossing> crossings(const std::vector<Side>& sides, int axis) const {
-        const auto a = static_cast<std::size_t>(axis);
-        const auto last = static_cast<std::int32_t>(grid_.counts()[a] - 1);
-        std::vector<Crossing> crossings;
+    // What each of some sides meets of each slab, of the grid.
+    std::vector<Run> met(const std::vector<Side>& sides, int axis) const {
+        const auto last = static_cast<std::int32_t>(grid_.counts()[static_cast<std::size_t>(axis)] - 1);
+        std::vector<Run> runs;
         for (const Side& side : sides) {
             for (const Slab& slab : slabs_) {
-                const double near = slab.near - origin(), far = slab.far - origin();
-                const double middle = slab.middle - origin();
-                const Interval all = between(side, near, far);
-                const Interval by = kind_ == Kind::opof ? between(side, middle, middle) : all;
-                // No function is of lines that come in or go out by the sides of the cube, or of what is
-                // shown of it, nor by how much a ray's first or last sample in it is less than a step; and
-                // none of a part of a block.
-                const Interval on = between(side, near - face_.sign * step_, far + face_.sign * step_);
-                const Run counted = run(by);
-                const bool inside = slab.thickness > 0 && std::min(on.lo, by.lo) >= begins_[a] &&
-                                    std::max(on.hi, by.hi) < ends_[a] && whole_[a].contains(counted.first) &&
-                                    whole_[a].contains(counted.last);
-                const Run met = run(all);
-                crossings.push_back(
-                    {{std::max(met.first, 0), std::min(met.last, last)}, inside ? counted : Run{0, -1}});
+                const Run all = run(between(side, slab.near - origin(), slab.far - origin()));
+                runs.push_back({std::max(all.first, 0), std::min(all.last, last)});
             }
         }
-        return crossings;
+        return runs;
+    }
+
+    // How far in front of where that is counted from all of a side's rays are inside of what is shown.
+    Interval inside(const Side& side, std::size_t axis) const {
+        const auto [slowest, fastest] = std::minmax({side.slope.lo * face_.sign, side.slope.hi * face_.sign});
+        Interval far{-HUGE_VAL, HUGE_VAL};
+        // at + slope * t >= 0
+        const auto narrow = [&far](double at, double slope) {
+            if (slope > 0) {
+                far.lo = std::max(far.lo, -at / slope);
+            } else if (slope < 0) {
+                far.hi = std::min(far.hi, -at / slope);
+            } else if (at < 0) {
+                far.hi = -HUGE_VAL;
+            }
+        };
+        narrow(side.at.lo - slack - begins_[axis], slowest);
+        narrow(ends_[axis] - slack - side.at.hi, -fastest);
+        return far;
+    }
+
+    // Where functions count of each slab. None is of lines that go half-way past a block and come in or go
+    // out by the sides of the cube, or of what is shown of it; those of blocks are of what is inside. Nor is
+    // it known by how much a ray's first or last sample there is less than a step; and none is of a part of a
+    // block.
+    std::vector<Counted> counted(const std::vector<Side>& sides, int axis, Footprint footprint) const {
+        const auto a = static_cast<std::size_t>(axis);
+        const Counted none{{0, -1}, 0, 0};
+        std::vector<Counted> all;
+        for (const Side& side : sides) {
+            const Interval in = inside(side, a);
+            for (const Slab& slab : slabs_) {
+                const double slab_near = (slab.near - origin()) * face_.sign;
+                const double slab_far = (slab.far - origin()) * face_.sign;
+                const double near = std::max(slab_near, in.lo + step_),
+                             far = std::min(slab_far, in.hi - step_);
+                const bool is_cut = near > slab_near || far < slab_far;
+                if (slab.thickness <= 0 || near >= far || (is_cut && footprint == Footprint::column)) {
+                    all.push_back(none);
+                    continue;
+                }
+                const double middle = slab.middle - origin();
+                const Run by =
+                    run(footprint == Footprint::column ? between(side, middle, middle)
+                                                       : between(side, near * face_.sign, far * face_.sign));
+                const bool are_whole = whole_[a].contains(by.first) && whole_[a].contains(by.last);
+                all.push_back(are_whole ? Counted{by, static_cast<float>(near), static_cast<float>(far)}
+                                        : none);
+            }
+        }
+        return all;
     }
 
     // World length of the beam's shortest ray from plane to plane of voxels, in the smallest distance of two.
@@ -239,13 +297,11 @@ class FacePass {
         const std::int64_t along = strides[static_cast<std::size_t>(face_.axis)];
         const std::int64_t across_u = strides[static_cast<std::size_t>(face_.u_axis())];
         const std::int64_t across_v = strides[static_cast<std::size_t>(face_.v_axis())];
-        const std::size_t beam = j * u_.size() + i;
-        const auto codes = std::span(codes_).subspan(first_of_[beam], first_of_[beam + 1] - first_of_[beam]);
         const double step = shortest_step(u_[i], v_[j]);
         double left = depth_;
         for (std::size_t n = 0; n < slabs_.size(); ++n) {
-            const auto& [met_u, by_u] = u_crossings_[i * slabs_.size() + n];
-            const auto& [met_v, by_v] = v_crossings_[j * slabs_.size() + n];
+            const Run& met_u = u_met_[i * slabs_.size() + n];
+            const Run& met_v = v_met_[j * slabs_.size() + n];
             if (met_u.empty() || met_v.empty()) {
                 continue;
             }
@@ -256,41 +312,57 @@ class FacePass {
                     std::atomic_ref(visible_.bytes()[block]).store(1, std::memory_order_relaxed);
                 }
             }
-            if (by_u.empty() || by_v.empty()) {
-                continue;
+            double most = 0;
+            for (const Said& said : said_) {
+                most = std::max(most, depth_of(said, i, j, n, slab_first, across_u, across_v, step));
             }
-            std::uint8_t least = 255;
-            for (const std::uint8_t* const of : codes) {
-                for (std::int64_t v = by_v.first; v <= by_v.last; ++v) {
-                    for (std::int64_t u = by_u.first; u <= by_u.last; ++u) {
-                        least = std::min(least, of[slab_first + v * across_v + u * across_u]);
-                    }
-                }
-            }
-            if (least == 0) {
-                continue;
-            }
-            const int parts = 1 + (by_u.first < by_u.last ? 1 : 0) + (by_v.first < by_v.last ? 1 : 0);
-            left -= depth_of(static_cast<double>(rate_[least]) * step, slabs_[n].thickness, parts);
+            left -= most;
             if (left <= 0) {
                 return;
             }
         }
     }
 
-    // Of a slab whose blocks have at least a rate, from plane to plane, crossed in at most so many parts.
-    double depth_of(double rate, double thickness, int parts) const {
+    // What the functions of a footprint say that a beam gathers in a slab at the least.
+    double depth_of(const Said& said, std::size_t i, std::size_t j, std::size_t slab, std::int64_t slab_first,
+                    std::int64_t across_u, std::int64_t across_v, double step) const {
+        const auto& [by_u, near_u, far_u] = said.u[i * slabs_.size() + slab];
+        const auto& [by_v, near_v, far_v] = said.v[j * slabs_.size() + slab];
+        const double part = static_cast<double>(std::min(far_u, far_v) - std::max(near_u, near_v));
+        if (by_u.empty() || by_v.empty() || part <= 0) {
+            return 0;
+        }
+        const std::size_t beam = j * u_.size() + i;
+        std::uint8_t least = 255;
+        for (std::size_t n = said.first_of[beam]; n < said.first_of[beam + 1]; ++n) {
+            const std::uint8_t* const of = said.codes[n];
+            for (std::int64_t v = by_v.first; v <= by_v.last; ++v) {
+                for (std::int64_t u = by_u.first; u <= by_u.last; ++u) {
+                    least = std::min(least, of[slab_first + v * across_v + u * across_u]);
+                }
+            }
+        }
+        if (least == 0) {
+            return 0;
+        }
+        const int parts = 1 + (by_u.first < by_u.last ? 1 : 0) + (by_v.first < by_v.last ? 1 : 0);
+        return depth_of(static_cast<double>(said.rate[least]) * step, slabs_[slab].thickness, part, parts);
+    }
+
+    // Of so much of a slab's thickness whose blocks have at least a rate, crossed in at most so many parts.
+    double depth_of(double rate, double thickness, double part, int parts) const {
+        const double sample = rate * std::min(part, 1.0);  // some block has one of the ray
         switch (kind_) {
             case Kind::pof:
-                return rate;  // some block has a sample of the ray
+                return sample;
             case Kind::opof_linear: {
                 // The opacity of a part is the greatest thickness' times its share of that. Together parts
                 // are least opaque if they are alike.
-                const double opacity = -std::expm1(-rate * thickness);
-                return -parts * std::log1p(-opacity / parts * (1 - 1e-12));
+                const double opacity = -std::expm1(-rate * thickness) * part / thickness;
+                return std::max(sample, -parts * std::log1p(-opacity / parts * (1 - 1e-12)));
             }
             default:
-                return rate * thickness;
+                return rate * part;
         }
     }
 
@@ -299,22 +371,25 @@ class FacePass {
     const BlockGrid& grid_;
     Kind kind_;
     double depth_;  // that hides what is behind
-    const std::array<float, 256>& rate_;
     BlockSet& visible_;
     double step_;                          // at most from slice to slice, in voxels
     std::array<double, 3> begins_, ends_;  // of what functions are of, in voxels
     std::array<Run, 3> whole_;             // blocks that are shown from end to end
     std::vector<Side> u_, v_;
     std::vector<Slab> slabs_;
-    std::vector<Crossing> u_crossings_, v_crossings_;  // of a side's slabs, one side after the other
-    std::vector<const std::uint8_t*> codes_;           // of each beam's directions, one beam after the other
-    std::vector<std::size_t> first_of_;                // of each beam
+    std::vector<Run> u_met_, v_met_;  // of a side's slabs, one side after the other
+    std::vector<Said> said_;
 };
 
 }  // namespace
 
-BlockSet visible_blocks(const Factorisation& factorisation, const BlockGrid& grid, const BlockRates& rates,
-                        const Settings& settings, base::Workers& workers) {
+std::span<const Footprint> footprints_of(Kind kind) {
+    static constexpr std::array both{Footprint::block, Footprint::column};
+    return std::span(both).first(kind == Kind::opof ? 2 : 1);
+}
+
+BlockSet visible_blocks(const Factorisation& factorisation, const BlockGrid& grid,
+                        std::span<const BlockRates> rates, const Settings& settings, base::Workers& workers) {
     BlockSet visible(grid.size());
     for (const Face& face : factorisation.faces) {
         FacePass pass(factorisation, face, grid, rates, settings, visible, workers);

@@ -8,9 +8,12 @@
 //     eye >===  slab 0  |  slab 1  |
 //              [a][b]   |[a][b][c] |
 //
-// of opof, rate times thickness, of the blocks that it is in half-way through the slab; of the others, of any
-// that it meets there; all the least of several, along the shortest of its rays.
-// So every ray of a beam has at least the depth counted when it comes to a block that is not visible, and
+// rate times thickness of the blocks that it is in half-way through the slab (columns), or of any that it
+// meets there (blocks); of either the least of several, along the shortest of its rays. opof takes the more of
+// both. The others have blocks alone: pof one sample's depth, and opof-linear that or, if more, the greatest
+// thickness' opacity by shares. So what is hidden by pof is by opof-linear, and what is by that is by opof.
+//
+// Every ray of a beam has at least the depth counted when it comes to a block that is not visible, and
 // what is left out lies behind that depth, on every ray.
 
 #include <array>
@@ -27,7 +30,15 @@
 
 namespace shearwater::culling {
 
+// What lines are taken together in a function: those through a block, over what they have in it, or those
+// that pass it half-way, between its planes.
+enum class Footprint { block, column };
+// Of the functions that a kind goes by; those of blocks, which are found sooner, first.
+std::span<const Footprint> footprints_of(Kind kind);
+
+// Of functions of one footprint.
 struct BlockRates {
+    Footprint footprint;
     // A code for each of the grid's blocks.
     using Codes = std::span<const std::uint8_t>;
 
@@ -38,9 +49,9 @@ struct BlockRates {
     std::array<float, 256> rate;
 };
 
-// The rates are of the functions that the settings' kind goes by, which is not off. Of a cropped cube only
-// blocks that are shown from end to end hide anything.
+// The rates are of the functions that the settings' kind goes by, which is not off, or of some of them. Of a
+// cropped cube only blocks that are shown from end to end hide anything.
 BlockSet visible_blocks(const view::Factorisation& factorisation, const BlockGrid& grid,
-                        const BlockRates& rates, const Settings& settings, base::Workers& workers);
+                        std::span<const BlockRates> rates, const Settings& settings, base::Workers& workers);
 
 }  // namespace shearwater::culling

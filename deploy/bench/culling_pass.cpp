@@ -111,7 +111,9 @@ base::Status culling_pass_of_many(const deploy::ViewOptions& view, double thresh
         culling::FunctionStore store(grid, directions);
         const auto table = std::make_shared<culling::FunctionTable>(made_up(grid, directions, codes.count));
         for (const culling::Member& member : culling::members_of(codes.tf)) {
-            store.put({culling::Footprint::column, member.basis, 0}, table);
+            for (const culling::Footprint footprint : culling::footprints_of(culling::Kind::opof)) {
+                store.put({footprint, member.basis, 0}, table);
+            }
         }
         for (const bool parallel : {false, true}) {
             deploy::ViewOptions seen = first_view(many_edge);
@@ -128,8 +130,7 @@ base::Status culling_pass_of_many(const deploy::ViewOptions& view, double thresh
                                            turned.sampling());
                 },
                 [&](const view::Factorisation& f) {
-                    return culling::visible_blocks(f, grid,
-                                                   store.rates(codes.tf, culling::Footprint::column, 0, 1),
+                    return culling::visible_blocks(f, grid, store.rates(codes.tf, culling::Kind::opof, 0, 1),
                                                    {culling::Kind::opof, threshold}, workers);
                 });
             Record record;

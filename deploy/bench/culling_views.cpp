@@ -42,10 +42,12 @@ culling::FunctionStore as_polynomials(const CullingRun& run, const culling::Cull
     const int side = culling::DirectionGrid::default_side;
     culling::FunctionStore store(run.grid(), culling::DirectionGrid(side));
     for (const culling::Member& member : culling::members_of(run.drawn.tf)) {
-        const culling::FunctionKey key{culling::Footprint::column, member.basis, 0};
-        const culling::FunctionTable& table = *culler.functions().find(key);
-        store.put(key, std::make_shared<culling::FunctionTable>(
-                           culling::table_of(culling::polynomials_of(table), table.blocks, side)));
+        for (const culling::Footprint footprint : culling::footprints_of(culling::Kind::opof)) {
+            const culling::FunctionKey key{footprint, member.basis, 0};
+            const culling::FunctionTable& table = *culler.functions().find(key);
+            store.put(key, std::make_shared<culling::FunctionTable>(
+                               culling::table_of(culling::polynomials_of(table), table.blocks, side)));
+        }
     }
     return store;
 }
@@ -69,8 +71,8 @@ Visible visible_of(const CullingRun& run, culling::Culler& culler, culling::Func
         visible.in_order = visible.in_order && (k == 0 || visible.kinds[k - 1] <= visible.kinds[k]);
     }
     const view::Vec3& spacing = run.cube.lattice().spacing;
-    const culling::BlockRates rates = polynomials.rates(run.drawn.tf, culling::Footprint::column, 0,
-                                                        std::min({spacing.x, spacing.y, spacing.z}));
+    const std::vector<culling::BlockRates> rates =
+        polynomials.rates(run.drawn.tf, culling::Kind::opof, 0, std::min({spacing.x, spacing.y, spacing.z}));
     const auto by_polynomials =
         culling::visible_blocks(f, grid, rates, run.settings(culling::Kind::opof), workers);
     visible.polynomial = count_of_both(by_polynomials, opaque);

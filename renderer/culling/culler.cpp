@@ -37,11 +37,13 @@ Culler::Culler(const shear::BrickVolume& volume, const view::Vec3& spacing, std:
 std::int64_t Culler::prepare(const view::TransferFunction& tf, Kind kind, int level, base::Workers& workers) {
     std::int64_t computed = 0;
     for (const Member& member : members_of(tf)) {
-        const FunctionKey key{footprint_of(kind), member.basis, level};
-        if (store_.find(key) == nullptr) {
-            store_.put(key, std::make_shared<FunctionTable>(
-                                functions_of(volume_, key, store_.grid(), directions_, false, workers)));
-            computed += static_cast<std::int64_t>(store_.grid().size());
+        for (const Footprint footprint : footprints_of(kind)) {
+            const FunctionKey key{footprint, member.basis, level};
+            if (store_.find(key) == nullptr) {
+                store_.put(key, std::make_shared<FunctionTable>(
+                                    functions_of(volume_, key, store_.grid(), directions_, false, workers)));
+                computed += static_cast<std::int64_t>(store_.grid().size());
+            }
         }
     }
     return computed;
@@ -49,8 +51,8 @@ std::int64_t Culler::prepare(const view::TransferFunction& tf, Kind kind, int le
 
 VisibleBlocks Culler::visible(const view::Factorisation& factorisation, const view::TransferFunction& tf,
                               const Settings& settings, base::Workers& workers) {
-    const BlockRates rates = store_.rates(tf, footprint_of(settings.kind), factorisation.level(),
-                                          std::min({spacing_.x, spacing_.y, spacing_.z}));
+    const std::vector<BlockRates> rates = store_.rates(tf, settings.kind, factorisation.level(),
+                                                       std::min({spacing_.x, spacing_.y, spacing_.z}));
     return {store_.grid(), visible_blocks(factorisation, store_.grid(), rates, settings, workers)};
 }
 

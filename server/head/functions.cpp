@@ -21,7 +21,11 @@ bool Functions::need(wire::LinkId client, const view::TransferFunction& tf, cull
     std::vector<FunctionKey> keys;
     for (const culling::Member& member : culling::members_of(tf)) {
         bases.push_back(member.basis);
-        keys.push_back({culling::footprint_of(kind), member.basis, level});
+    }
+    for (const culling::Footprint footprint : culling::footprints_of(kind)) {
+        for (const culling::Basis& basis : bases) {
+            keys.push_back({footprint, basis, level});
+        }
     }
     Need& need = needs_[client];
     if (need.bases != bases || need.kind != kind) {

@@ -69,9 +69,8 @@ Looked Lookout::look(const Look& look, base::Workers& workers) {
         return {look.frame, {grid, culling::BlockSet(grid.size(), true)}};
     }
     const view::Vec3& spacing = look.factorisation.lattice.spacing;
-    const culling::BlockRates rates =
-        store_->rates(look.tf, culling::footprint_of(look.settings.kind), look.factorisation.level(),
-                      std::min({spacing.x, spacing.y, spacing.z}));
+    const std::vector<culling::BlockRates> rates = store_->rates(
+        look.tf, look.settings.kind, look.factorisation.level(), std::min({spacing.x, spacing.y, spacing.z}));
     return {look.frame, {grid, visible_blocks(look.factorisation, grid, rates, look.settings, workers)}};
 }
 

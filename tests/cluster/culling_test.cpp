@@ -100,14 +100,11 @@ TEST_F(CullingTree, GoesOnOverADeathOfARenderer) {
     start(2, 2);
     expect_left_out(view_at(*client_->lattice(), 30, fog(0.9)));
     ASSERT_EQ(kill(tree_->daemon_ids().at(0), SIGKILL), 0);
-    const auto with_it_alive = [&](bool ready) {
-        return client_->wait_until([&] {
-            tree_->keep_alive();
-            return client_->state().ready() == ready;
-        });
-    };
-    ASSERT_TRUE(with_it_alive(false));
-    ASSERT_TRUE(with_it_alive(true));
+    ASSERT_TRUE(client_->wait_until([&] { return !client_->state().ready(); }));
+    ASSERT_TRUE(client_->wait_until([&] {
+        tree_->keep_alive();
+        return client_->state().ready();
+    }));
     expect_left_out(view_at(*client_->lattice(), 30, fog(0.9)));
 }
 

@@ -61,6 +61,34 @@ TEST_P(CullingKinds, ChangeNoPictureOfNoise) {
 
 INSTANTIATE_TEST_SUITE_P(All, CullingKinds, testing::Values(Kind::opof, Kind::opof_linear, Kind::pof));
 
+// What opof shows opof-linear does, and what that shows pof does, block by block.
+TEST(Culling, OfEachKindLeavesOutWhatThoseBeforeItDo) {
+    test::FloatCube noise = test::noise_cube({110, 90, 101});
+    base::Workers workers(2);
+    std::mt19937 random(8);
+    const auto volume = test::bricks_of(noise, workers);
+    const view::Lattice lattice{.n = noise.n(), .spacing = {1, 1, 1}};
+    Culler culler(volume, lattice.spacing, 16, 12);
+    std::size_t fewer = 0;
+    for (int n = 0; n < 12; ++n) {
+        const auto tf = bench::function_at_random(random);
+        const auto camera = bench::camera_at_random(random, lattice);
+        const auto f =
+            view::factorise(camera, {96, 80}, lattice, view::sampling(view::Quality::normal, false));
+        std::optional<BlockSet> before;
+        for (const Kind kind : {Kind::pof, Kind::opof_linear, Kind::opof}) {
+            culler.prepare(tf, kind, 0, workers);
+            BlockSet seen = culler.visible(f, tf, {.kind = kind, .threshold = 0.95}, workers).blocks;
+            for (std::size_t block = 0; before && block < seen.bytes().size(); ++block) {
+                ASSERT_LE(seen.bytes()[block], before->bytes()[block]) << n << ", block " << block;
+                fewer += seen.bytes()[block] < before->bytes()[block] ? 1 : 0;
+            }
+            before = std::move(seen);
+        }
+    }
+    EXPECT_GT(fewer, 100U);
+}
+
 TEST(Culling, OfAllDirectionsChangesNoPicture) {
     test::FloatCube waves = shells({110, 90, 101});
     expect_no_difference(waves, {3, 4, {.kind = Kind::opof, .threshold = 0.95}, 0.05});

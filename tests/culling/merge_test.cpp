@@ -162,7 +162,7 @@ TEST(Family, CombinedCodesAreTheGreatestBelow) {
         store.put({Footprint::column, member.basis, 0}, tables.back());
     }
     base::Workers workers(2);
-    const BlockRates rates = store.rates(tf, Footprint::column, 0, 2);
+    const BlockRates rates = store.rates(tf, Kind::opof, 0, 2).back();
     const std::vector cells{6, 1};
     const auto codes = rates.of(cells, workers);
     const Combination combination(members);
@@ -194,8 +194,8 @@ TEST(Family, DensityMultipliesRatesAndNeedsNoOtherFunction) {
     table->codes.assign(grid.size() * 8, 200);
     const auto put = [&](const Member& member) { store.put({Footprint::column, member.basis, 0}, table); };
     put(members_of(tf)[0]);
-    const auto thin = store.rates(tf, Footprint::column, 0, 1).rate;
-    const auto thick = store.rates(dense, Footprint::column, 0, 1).rate;
+    const auto thin = store.rates(tf, Kind::opof, 0, 1).back().rate;
+    const auto thick = store.rates(dense, Kind::opof, 0, 1).back().rate;
     for (std::size_t code = 0; code < thin.size(); ++code) {
         EXPECT_FLOAT_EQ(thick[code], 3 * thin[code]);
     }
@@ -207,7 +207,7 @@ TEST(Family, DensityMultipliesRatesAndNeedsNoOtherFunction) {
     base::Workers workers(1);
     const auto rate_with = [&](const view::TransferFunction& by) {
         const std::vector cells{0};
-        const BlockRates rates = store.rates(by, Footprint::column, 0, 1);
+        const BlockRates rates = store.rates(by, Kind::opof, 0, 1).back();
         return rates.rate[rates.of(cells, workers)[0][0]];
     };
     const auto wanted = static_cast<float>(lifted(rate_of(200), 0.9, 1) + lifted(rate_of(200), 0.01, 1));
