@@ -96,7 +96,6 @@ struct Desk {
     wire::Time now{};  // of this pass
     model::Transition transition;
     bool flying = false;
-    bool thrust_held_back = false;
     double pace = 1;                            // of flight
     model::Units units = model::Units::voxels;  // that targets are shown in
     bool numbers = false;                       // the camera's are shown

@@ -206,9 +206,7 @@ void navigate_on(Desk& desk, const Window& window) {
     };
     const model::Thrust thrust{between(GLFW_KEY_A, GLFW_KEY_D), between(GLFW_KEY_X, GLFW_KEY_SPACE),
                                between(GLFW_KEY_S, GLFW_KEY_W)};
-    // What was pressed with the control key means something else, until it is let go.
-    desk.thrust_held_back = io.KeyCtrl || (desk.thrust_held_back && thrust != model::Thrust(0));
-    if (thrust != model::Thrust(0) && !desk.thrust_held_back) {
+    if (thrust != model::Thrust(0)) {
         // A pass may have waited long for the first key.
         constexpr double longest = 0.1;
         const double seconds = std::min(static_cast<double>(io.DeltaTime), longest);

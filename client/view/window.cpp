@@ -97,6 +97,12 @@ void Window::on_key(GLFWwindow* window, int key, int, int action, int mods) {
         }
     } else if (action != GLFW_RELEASE) {
         self.keys_.push_back({key, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0});
+        self.struck_.push_back(key);
+    }
+    if (action == GLFW_RELEASE) {
+        self.with_control_.erase(key);
+    } else if ((mods & GLFW_MOD_CONTROL) != 0) {
+        self.with_control_.insert(key);
     }
 }
 
@@ -111,11 +117,23 @@ void Window::on_drop(GLFWwindow* window, int count, const char** paths) {
 
 bool Window::is_down(int key) const {
     const auto held = [this](int each) { return glfwGetKey(window_, each) == GLFW_PRESS; };
-    return held(key) && !held(GLFW_KEY_LEFT_CONTROL) && !held(GLFW_KEY_RIGHT_CONTROL);
+    return held(key) && !with_control_.contains(key) && !held(GLFW_KEY_LEFT_CONTROL) &&
+           !held(GLFW_KEY_RIGHT_CONTROL);
 }
 
+// Dear ImGui sees only keys that are down in a pass: those that were down for less are, in one.
 void Window::begin(double wait_seconds) {
+    bool* const down = ImGui::GetIO().KeysDown;
+    for (const int key : std::exchange(held_over_, {})) {
+        down[key] = glfwGetKey(window_, key) == GLFW_PRESS;
+    }
     glfwWaitEventsTimeout(wait_seconds);
+    for (const int key : std::exchange(struck_, {})) {
+        if (key >= 0 && key <= GLFW_KEY_LAST && !down[key]) {
+            down[key] = true;
+            held_over_.push_back(key);
+        }
+    }
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();

@@ -2,6 +2,7 @@
 // The operating system's window with a graphics context and Dear ImGui in it.
 
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,9 +41,9 @@ class Window {
     void close();
     // Waits for input, a wake() or the time to pass, then begins a pass of widgets.
     void begin(double wait_seconds);
-    // The keys pressed since the last call, however short. (Dear ImGui sees only what is down in a pass.)
+    // The keys pressed since the last call, however short.
     std::vector<KeyPress> take_keys() { return std::exchange(keys_, {}); }
-    // Whether a key is held down now, and no control key with it.
+    // Whether a key is held down now that was pressed without a control key, and none is held with it.
     bool is_down(int key) const;
     // Files that were dropped on the window since the last call.
     std::vector<std::string> take_drops() { return std::exchange(drops_, {}); }
@@ -82,6 +83,9 @@ class Window {
     EyeGates gates_;
     FullScreen full_screen_;
     std::vector<KeyPress> keys_;
+    std::set<int> with_control_;  // keys that went down so, and are down
+    std::vector<int> struck_;     // keys that went down since the last pass
+    std::vector<int> held_over_;  // keys that were up again before the pass they are down in
     std::vector<std::string> drops_;
 };
 

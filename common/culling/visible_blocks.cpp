@@ -15,8 +15,8 @@ namespace {
 
 // So many beams along a face's longer side.
 constexpr int most_beams = 112;
-// Opacities are looked up for the nearest of some lengths of a step, and rounded: what a ray has gathered may
-// lack a part like this of its depth.
+// What a ray gathers by the kernel's tables and rounded sums is less than by exact opacities by at most such a
+// part of its depth, or little more.
 constexpr double lack = 1.0 / 200;
 // Where samples are told from one another is rounded by less than this, in voxels.
 constexpr double slack = 1.0 / 64;

@@ -37,7 +37,7 @@ void culling_functions(const CullingRun& run) {
                 const double seconds = clock.lap();
                 const double processor_seconds = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
                 Record record = run.record();
-                record.text("functions", footprint == culling::Footprint::column ? "opof" : "pof, linear", 11)
+                record.text("functions", footprint == culling::Footprint::column ? "columns" : "blocks", 9)
                     .text("from", from.name, 7)
                     .count("side", static_cast<std::uint64_t>(side))
                     .count("directions", static_cast<std::uint64_t>(directions.cells()))

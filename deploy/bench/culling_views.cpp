@@ -4,6 +4,7 @@
 
 #include "common/culling/function_store.h"
 #include "common/culling/polynomials.h"
+#include "common/culling/rates.h"
 #include "deploy/bench/culling.h"
 #include "deploy/bench/culling_optimal.h"
 #include "deploy/progress_bar.h"
@@ -37,7 +38,23 @@ struct Visible {
     }
 };
 
-// What a culler has prepared, as polynomials say it.
+// What holds of each block in all directions: a byte.
+culling::FunctionTable least_of(const culling::FunctionTable& table) {
+    culling::FunctionTable least = table;
+    const std::size_t blocks = table.block_count();
+    for (std::size_t n = 0; n < blocks; ++n) {
+        std::uint8_t code = culling::most_code;
+        for (std::size_t entry = n; entry < table.codes.size(); entry += blocks) {
+            code = std::min(code, table.codes[entry]);
+        }
+        for (std::size_t entry = n; entry < table.codes.size(); entry += blocks) {
+            least.codes[entry] = code;
+        }
+    }
+    return least;
+}
+
+// What a culler has prepared in 41 bytes a block: columns as polynomials, and what is least of the block.
 culling::FunctionStore as_polynomials(const CullingRun& run, const culling::Culler& culler) {
     const int side = culling::DirectionGrid::default_side;
     culling::FunctionStore store(run.grid(), culling::DirectionGrid(side));
@@ -46,7 +63,9 @@ culling::FunctionStore as_polynomials(const CullingRun& run, const culling::Cull
             const culling::FunctionKey key{footprint, member.basis, 0};
             const culling::FunctionTable& table = *culler.functions().find(key);
             store.put(key, std::make_shared<culling::FunctionTable>(
-                               culling::table_of(culling::polynomials_of(table), table.blocks, side)));
+                               footprint == culling::Footprint::block
+                                   ? least_of(table)
+                                   : culling::table_of(culling::polynomials_of(table), table.blocks, side)));
         }
     }
     return store;
