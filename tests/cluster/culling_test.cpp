@@ -52,7 +52,7 @@ class CullingTree : public testing::Test {
         EXPECT_EQ(all->stats.leaves().bricks_culled(), 0U);
         view.culling = {.kind = culling::Kind::opof};
         std::optional<support::Shot> some;
-        for (int n = 0; n < 3000 && (!some || some->stats.leaves().bricks_culled() == 0); ++n) {
+        for (int n = 0; n < 12000 && (!some || some->stats.leaves().bricks_culled() == 0); ++n) {
             // Functions are found when nothing else has the processors, as a person leaves them.
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
             some = client_->draw(view);
