@@ -151,6 +151,8 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     double preprocess = stopwatch.lap();
     const auto second_half = [&](double fraction) { loading(0.5 + fraction / 2); };
     const culling::Settings culling = view.drawing.culling_settings();
+    view::Sampling sampling = view.sampling();
+    sampling.opaque = culling.opaque();
     Loaded loaded(*opened, lattice, culling.kind, workers);
     const auto hold = [&](const volume::Progress& told) {
         return loaded.hold(shot->scaling ? volume::Mapping::of(*shot->scaling, cube.bits) : values->mapping,
@@ -177,7 +179,7 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
         const view::TransferFunction& tf = shot->tf;
         stopwatch.lap();
         const std::vector<view::Camera> eyes = eyes_of(shot->camera, view.stereo);
-        const auto factorisations = view::factorise(eyes, *size, lattice, view.sampling(), *crop);
+        const auto factorisations = view::factorise(eyes, *size, lattice, sampling, *crop);
         if (culler) {
             culler->prepare(tf, culling.kind, factorisations.front().level(), workers);
             preprocess += stopwatch.lap();

@@ -1,6 +1,15 @@
 #include "common/culling/settings.h"
 
+#include <algorithm>
+
+#include "common/view/factorisation.h"
+
 namespace shearwater::culling {
+
+double Settings::opaque() const {
+    constexpr double enough = view::opaque_enough;
+    return kind == Kind::off ? enough : std::min(threshold, enough);
+}
 
 base::Status validate(const Settings& settings) {
     if (settings.kind < Kind::off || settings.kind > Kind::opof) {

@@ -21,9 +21,13 @@ inline constexpr std::array<std::string_view, 4> kind_names{"off", "pof", "opof-
 
 struct Settings {
     Kind kind = Kind::off;
-    // The opacity that every ray has to have before a block for that not to be seen. This leaves out less
-    // than half a level of 255.
+    // What lies behind so much opacity is left out: a block that every ray has it before, and the rest of a
+    // ray's way through a sub-volume that gives it. A picture lacks at most what is left of the light,
+    // here less than half a level of 255.
     double threshold = default_threshold;
+
+    // At which rays are done (view::Sampling).
+    double opaque() const;
 
     static constexpr double default_threshold = 1 - 1.0 / 510;
     bool operator==(const Settings&) const = default;

@@ -200,6 +200,9 @@ base::Status validate(const Factorisation& factorisation) {
         factorisation.level() > volume::max_margin_level) {
         return refuse_factorisation("so coarse a level is not for pre-integrated classification");
     }
+    if (!(factorisation.opaque > 0 && factorisation.opaque < 1)) {
+        return refuse_factorisation("the opacity at which its rays are done is not between 0 and 1");
+    }
     if (factorisation.faces.size() > Factorisation::max_faces) {
         return refuse_factorisation("it has more than six faces");
     }

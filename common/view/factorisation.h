@@ -42,13 +42,18 @@ enum class Classify {
     post,            // to each sample after interpolation
     pre_integrated,  // to all values between two samples, in advance (Engel, Kraus & Ertl 2001)
 };
-// How densely rays are sampled. Opacity does not depend on it.
+// A ray with so much opacity is done, where nothing else is wanted: what is left of its light is well below
+// half a level of 255.
+inline constexpr float opaque_enough = 1 - 1.0F / 4096;
+// How densely rays are sampled, and how far. Opacity does not depend on it, but by what a ray that is done
+// leaves out.
 struct Sampling {
     double resolution = 1;         // intermediate pixels per output pixel along a side
     int slice_exponent = 0;        // slices lie 2^slice_exponent voxels apart: 0, or -1 for half a voxel
     bool level_of_detail = false;  // or more, where voxels are smaller than intermediate pixels
     bool finer_magnified = false;  // or half a voxel, where nearer voxels span more than 1.25 of them
     Classify classify = Classify::post;
+    double opaque = opaque_enough;  // the opacity at which a ray is done, less than 1
 
     bool operator==(const Sampling&) const = default;
 };
@@ -87,6 +92,7 @@ struct Factorisation {
     Vec3 direction{};
     int slice_exponent = 0;  // as in Sampling, or the level of detail (volume/levels.h)
     Classify classify = Classify::post;
+    double opaque = opaque_enough;  // as in Sampling; rays end by themselves in each sub-volume
     std::vector<Face> faces;
     // What is drawn of the cube, the faces of the box included; else all of it. The picture is that of a cube
     // that ends there: no sample lies outside, and what a ray's first and last samples stand for reaches to

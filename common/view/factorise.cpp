@@ -353,7 +353,11 @@ Factorisation factorise(const Camera& camera, const ImageSize& size, const Latti
                         const Sampling& sampling, const std::optional<volume::Box>& crop) {
     const Rays rays = in_voxel_space(rays_of(camera, size), lattice);
     Factorisation factorisation{
-        .projection = camera.projection, .lattice = lattice, .classify = sampling.classify, .crop = crop};
+        .projection = camera.projection,
+        .lattice = lattice,
+        .classify = sampling.classify,
+        .opaque = sampling.opaque,
+        .crop = crop};
     const Polygon picture = whole_picture(size);
     std::vector<Plan> plans;
     if (camera.projection == Projection::perspective) {

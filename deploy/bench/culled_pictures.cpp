@@ -76,15 +76,18 @@ CulledPicture compare(const shear::BrickVolume& volume, culling::Culler& culler,
                       const view::Sampling& sampling, base::Workers& workers,
                       const std::optional<volume::Box>& crop) {
     const view::Factorisation f = view::factorise(camera, size, lattice, sampling, crop);
+    view::Factorisation culled = f;
+    culled.opaque = settings.opaque();
     const auto classification = shear::classify(volume, tf, f.classify, workers);
     culler.prepare(tf, settings.kind, f.level(), workers);
     const culling::VisibleBlocks visible = culler.visible(f, tf, settings, workers);
     CulledPicture picture;
-    const auto draw = [&](const culling::VisibleBlocks* blocks, shear::RenderStats& stats) {
-        const auto windows = shear::render(volume, classification, f, workers, &stats, {}, blocks);
-        return image::warp_float(f, windows, camera, size, workers);
+    const auto draw = [&](const view::Factorisation& by, const culling::VisibleBlocks* blocks,
+                          shear::RenderStats& stats) {
+        const auto windows = shear::render(volume, classification, by, workers, &stats, {}, blocks);
+        return image::warp_float(by, windows, camera, size, workers);
     };
-    const auto with = draw(&visible, picture.with), without = draw(nullptr, picture.without);
+    const auto with = draw(culled, &visible, picture.with), without = draw(f, nullptr, picture.without);
     for (std::size_t i = 0; i < with.pixels().size(); ++i) {
         const RgbaF& a = with.pixels()[i];
         const RgbaF& b = without.pixels()[i];

@@ -90,10 +90,13 @@ base::Result<InProcess> InProcess::load(const options::CubeOptions& options, int
 }
 
 FrameTimes InProcess::draw(const view::Camera& camera, const view::ImageSize& size,
-                           const view::Sampling& sampling, const view::TransferFunction& tf,
+                           view::Sampling sampling, const view::TransferFunction& tf,
                            const Culling* culling) {
     FrameTimes times;
     Clock clock;
+    if (culling != nullptr) {
+        sampling.opaque = culling->settings.opaque();
+    }
     const auto factorisation = view::factorise(camera, size, lattice_, sampling);
     times.factorise = clock.lap();
     std::optional<culling::VisibleBlocks> visible;

@@ -52,7 +52,7 @@ class InProcess {
     const shear::BrickVolume& bricks() const { return bricks_; }
 
     // Opacity functions that are missing are computed first, and not counted.
-    FrameTimes draw(const view::Camera& camera, const view::ImageSize& size, const view::Sampling& sampling,
+    FrameTimes draw(const view::Camera& camera, const view::ImageSize& size, view::Sampling sampling,
                     const view::TransferFunction& tf, const Culling* culling = nullptr);
     // One frame unmeasured, then `frames` along the path that `view` begins.
     base::Result<std::vector<FrameTimes>> draw_path(deploy::ViewOptions view, int frames,

@@ -73,6 +73,7 @@ pb::Factorisation to_wire(const view::Factorisation& factorisation) {
     set(*to.mutable_direction(), factorisation.direction);
     to.set_slice_exponent(factorisation.slice_exponent);
     to.set_classification(to_wire(factorisation.classify));
+    to.set_opaque(factorisation.opaque);
     for (const view::Face& face : factorisation.faces) {
         *to.add_faces() = to_wire(face);
     }
@@ -109,6 +110,8 @@ Parsed<view::Factorisation> factorisation_from(const pb::Factorisation& factoris
                              .direction = vec3_from(factorisation.direction()),
                              .slice_exponent = factorisation.slice_exponent(),
                              .classify = *classify,
+                             .opaque =
+                                 factorisation.opaque() == 0 ? view::opaque_enough : factorisation.opaque(),
                              .faces = std::move(*faces)};
     if (!finite(from.eye) || !finite(from.direction)) {
         return invalid("factorisation: a finite eye and direction are wanted");

@@ -48,6 +48,7 @@ class FacePlan {
     // The level of detail that is drawn, and in its nodes where slice k lies along the face's axis, and where
     // the nodes of the plane at `place` lie under pixels, fast as u and slow as v.
     int level() const { return factorisation_.level(); }
+    float opaque() const { return static_cast<float>(factorisation_.opaque); }
     double node_place(std::int64_t k) const { return factorisation_.slice_place(k) * nodes_per_voxel_; }
     view::SliceMap node_map(double place) const;
     // Whether all slices lie on planes of nodes.

@@ -68,14 +68,13 @@ inline constexpr std::size_t voxel_padding = 1024;
 struct Rays {
     float *r, *g, *b, *a;
     std::ptrdiff_t stride;
+    float done = view::opaque_enough;  // what has gathered so much opacity takes no more samples
 };
 inline constexpr int ray_padding = 32;
 // A tile's pixels along the fast and along the slow axis.
 inline constexpr int widest_tile = 128;
 inline constexpr int tallest_tile = 32;
 
-// A ray with less light left than this is done: well below half a level of 255.
-inline constexpr float opaque_enough = 1 - 1.0F / 4096;
 // What of a sample's corners has to be valid: one half, which rounding does not undo.
 inline constexpr float least_valid = 0.4999F;
 // Optical depths up to this many halvings of light are easy to make opacities of.

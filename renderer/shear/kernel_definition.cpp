@@ -81,7 +81,7 @@ template <class Code>
 void composite_ray(const Slab<Code>& slab, const OpacityTable& table, const Rays& rays, int i, int j,
                    std::uint64_t& taken) {
     const std::ptrdiff_t n = j * rays.stride + i;
-    if (rays.a[n] >= opaque_enough) {
+    if (rays.a[n] >= rays.done) {
         return;
     }
     for (int k = 0; k < slab.count; ++k) {

@@ -118,7 +118,7 @@ HWY_INLINE std::uint64_t composite_row(const Slab<Code>& slab, const Slice<Code>
     for (int n = 0; n < width; n += static_cast<int>(hn::Lanes(d))) {
         const auto at = static_cast<std::size_t>(n);
         auto live = hn::And(hn::FirstN(d, static_cast<std::size_t>(width - n)),
-                            hn::Lt(hn::LoadU(d, a_before + n), hn::Set(d, opaque_enough)));
+                            hn::Lt(hn::LoadU(d, a_before + n), hn::Set(d, rays.done)));
         if (hn::AllFalse(d, live)) {
             continue;
         }

@@ -251,7 +251,7 @@ HWY_INLINE std::uint64_t composite_row_of_chunk(const Slab<std::uint8_t>& slab, 
     Sixteen low, high;
     low.begin(rays.a + ray);
     high.begin(rays.a + ray + 16);
-    const __m512 done = _mm512_set1_ps(opaque_enough);
+    const __m512 done = _mm512_set1_ps(rays.done);
     const std::uint32_t live = _mm512_cmp_ps_mask(low.a, done, _CMP_LT_OQ) |
                                static_cast<std::uint32_t>(_mm512_cmp_ps_mask(high.a, done, _CMP_LT_OQ)) << 16;
     if (live == 0) {

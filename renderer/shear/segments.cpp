@@ -129,7 +129,7 @@ HWY_INLINE std::uint64_t composite_row_of_segments(const Segment& segment, const
     for (int n = 0; n < width; n += static_cast<int>(hn::Lanes(d))) {
         const auto at = static_cast<std::size_t>(n);
         const auto live = hn::And(hn::FirstN(d, static_cast<std::size_t>(width - n)),
-                                  hn::Lt(hn::LoadU(d, a_before + n), hn::Set(d, opaque_enough)));
+                                  hn::Lt(hn::LoadU(d, a_before + n), hn::Set(d, rays.done)));
         taken += hn::CountTrue(d, live);
         const std::ptrdiff_t ray = j * rays.stride + span.i0 + n;
         auto length = hn::IfThenElseZero(live, hn::LoadU(d, segment.lengths + ray));
@@ -174,7 +174,7 @@ std::uint64_t composite_segments_of_chunk(const SegmentSlab<Code>& slab, const v
     for (int j = chunk.y0; j < chunk.y1; ++j) {
         fetching.step();
         const float* const a = rays.a + j * rays.stride;
-        if (std::all_of(a + chunk.x0, a + chunk.x1, [](float alpha) { return alpha >= opaque_enough; })) {
+        if (std::all_of(a + chunk.x0, a + chunk.x1, [&](float alpha) { return alpha >= rays.done; })) {
             continue;
         }
         std::copy_n(a, a_before.size(), a_before.begin());

@@ -106,9 +106,10 @@ void Tile<Code>::prepare_rays() {
 
 template <class Code>
 bool Tile<Code>::opaque() const {
+    const float done = plan_.opaque();
     for (int j = rect_.y0; j < rect_.y1; ++j) {
         const float* const a = &planes_->a[slot(rect_.x0, j)];
-        if (std::any_of(a, a + rect_.width(), [](float alpha) { return alpha < opaque_enough; })) {
+        if (std::any_of(a, a + rect_.width(), [done](float alpha) { return alpha < done; })) {
             return false;
         }
     }
@@ -328,7 +329,8 @@ Rays Tile<Code>::rays() {
             .g = planes_->g.data(),
             .b = planes_->b.data(),
             .a = planes_->a.data(),
-            .stride = stride};
+            .stride = stride,
+            .done = plan_.opaque()};
 }
 
 // Most samples stand for a whole step. Those that do not are at the rim of what the cube covers on a slice.

@@ -106,8 +106,9 @@ std::vector<view::Factorisation> Head::factorise(const wire::View& view,
                                                  bool sketch) const {
     const view::Lattice& lattice = roster_.cube().lattice;
     const int sketch_level = roster_.cube().sketch_level;
-    const auto sampling =
+    auto sampling =
         view::sampling(view.quality, view.level_of_detail.value_or(limits_.level_of_detail), view.classify);
+    sampling.opaque = view.culling.opaque();
     const auto crop = sketch && view.crop
                           ? std::optional(view::widened_to_nodes(*view.crop, sketch_level, lattice.n))
                           : view.crop;
