@@ -6,6 +6,11 @@
 
 namespace shearwater::culling {
 
+std::span<const Footprint> footprints_of(Kind kind) {
+    static constexpr std::array both{Footprint::block, Footprint::column};
+    return std::span(both).first(kind == Kind::opof ? 2 : 1);
+}
+
 double Settings::opaque() const {
     constexpr double enough = view::opaque_enough;
     return kind == Kind::off ? enough : std::min(threshold, enough);

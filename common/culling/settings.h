@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "common/base/result.h"
@@ -18,6 +19,12 @@ enum class Kind {
 };
 // In the order of Kind.
 inline constexpr std::array<std::string_view, 4> kind_names{"off", "pof", "opof-linear", "opof"};
+
+// What lines are taken together in a function: those through a block, over what they have in it, or those
+// that pass it half-way, between its planes.
+enum class Footprint { block, column };
+// Of the functions that a kind goes by; those of blocks, which are found sooner, first.
+std::span<const Footprint> footprints_of(Kind kind);
 
 struct Settings {
     Kind kind = Kind::off;

@@ -9,9 +9,10 @@
 //              [a][b]   |[a][b][c] |
 //
 // rate times thickness of the blocks that it is in half-way through the slab (columns), or of any that it
-// meets there (blocks); of either the least of several, along the shortest of its rays. opof takes the more of
-// both. The others have blocks alone: pof one sample's depth, and opof-linear that or, if more, the greatest
-// thickness' opacity by shares. So what is hidden by pof is by opof-linear, and what is by that is by opof.
+// meets there (blocks); of either the least of several, along the shortest of its rays. opof takes the more
+// of both. The others have blocks alone: pof one sample's depth, and opof-linear that or, if more, the
+// greatest thickness' opacity by shares. So what is hidden by pof is by opof-linear, and what is by that is
+// by opof.
 //
 // Every ray of a beam has at least the depth counted when it comes to a block that is not visible, and
 // what is left out lies behind that depth, on every ray.
@@ -29,12 +30,6 @@
 #include "common/view/factorisation.h"
 
 namespace shearwater::culling {
-
-// What lines are taken together in a function: those through a block, over what they have in it, or those
-// that pass it half-way, between its planes.
-enum class Footprint { block, column };
-// Of the functions that a kind goes by; those of blocks, which are found sooner, first.
-std::span<const Footprint> footprints_of(Kind kind);
 
 // Of functions of one footprint.
 struct BlockRates {

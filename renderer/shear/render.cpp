@@ -211,9 +211,10 @@ RenderStats render_bands(const BrickVolume& volume, const Classification& classi
         "a volume is classified as the factorisation has it");
     const std::vector<Content>& all =
         classification.micro_bricks[static_cast<std::size_t>(factorisation.level())];
-    const std::vector<Content> seen = visible != nullptr ? seen_contents(volume.level(factorisation.level()),
-                                                                         factorisation.level(), all, *visible)
-                                                         : std::vector<Content>();
+    const std::vector<Content> seen = visible != nullptr
+                                          ? seen_contents(volume.level(factorisation.level()),
+                                                          factorisation.level(), all, *visible, workers)
+                                          : std::vector<Content>();
     Frame frame{.volume = volume,
                 .classification = classification,
                 .contents = visible != nullptr ? seen : all,

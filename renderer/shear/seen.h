@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "common/base/workers.h"
 #include "common/culling/block_grid.h"
 #include "renderer/shear/brick_volume.h"
 #include "renderer/shear/classification.h"
@@ -13,7 +14,7 @@ namespace shearwater::shear {
 
 // Of a level's micro-bricks: those in no visible block have no opacity.
 std::vector<Content> seen_contents(const CodeVolume& nodes, int level, std::span<const Content> contents,
-                                   const culling::VisibleBlocks& visible);
+                                   const culling::VisibleBlocks& visible, base::Workers& workers);
 
 // How many of a volume's bricks are opaque and in no visible block.
 std::uint64_t hidden_bricks(const BrickVolume& volume, std::span<const std::uint8_t> opaque,
