@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "renderer/shear/fetching.h"
@@ -13,10 +12,6 @@ using view::PixelRange;
 using view::Rect;
 
 namespace {
-
-// Extinctions of nodes that differ by less than these halvings of light a step are not told apart: as much as
-// one opacity in a hundred, at most half of which a sample is wrong by, this way or that.
-constexpr float jump_seen = 1.0F / 64;
 
 // Of a range of pixels those whose samples lie in the voxels [lo, hi), or on the sub-volume's side of an end
 // of it where `open`. Neighbours' ranges meet.
@@ -51,7 +46,8 @@ Tile<Code>::Tile(const BrickVolume& volume, const Classification& classification
 template <class Code>
 void Tile<Code>::render(const Rect& rect) {
     rect_ = rect;
-    prepare_rays();
+    begun_ = false;
+    live_ = {0, 0, rect.width(), rect.height()};
     // The slices of one layer of micro-bricks go together, as many as a slab takes.
     std::array<Slice<Code>, Slab<Code>::max_slices> slices;
     std::array<std::int64_t, Slab<Code>::max_slices> numbers;
@@ -68,8 +64,11 @@ void Tile<Code>::render(const Rect& rect) {
         const std::int64_t layer_of_k = micro_layer(k);
         if (count == slices.size() || layer_of_k != layer) {
             flush();
-            if (layer_of_k != layer && opaque()) {
-                return;
+            if (layer_of_k != layer && begun_) {
+                narrow_live();
+                if (live_.empty()) {
+                    return;
+                }
             }
         }
         layer = layer_of_k;
@@ -80,40 +79,6 @@ void Tile<Code>::render(const Rect& rect) {
         }
     }
     flush();
-}
-
-template <class Code>
-void Tile<Code>::prepare_rays() {
-    for (Plane* const plane : {&planes_->r, &planes_->g, &planes_->b, &planes_->a}) {
-        plane->fill(0);
-    }
-    const float unit = classification_.segments ? 1 : classification_.table.depth_unit();
-    float longest = 0;
-    for (int j = rect_.y0; j < rect_.y1; ++j) {
-        const std::span<float> row(&planes_->steps[slot(rect_.x0, j)],
-                                   static_cast<std::size_t>(rect_.width()));
-        plan_.steps(rect_.x0, j, row);
-        for (float& step : row) {
-            // Finite, so that times no extinction it is nothing.
-            step = std::min(step * unit, 1e38F);
-            longest = std::max(longest, step);
-        }
-    }
-    between_nodes_ = classification_.table.steepest() * longest > jump_seen;
-    // A ray's first sample and its last may stand for two steps.
-    faint_ = OpacityTable::largest * 2 * longest <= few_halvings;
-}
-
-template <class Code>
-bool Tile<Code>::opaque() const {
-    const float done = plan_.opaque();
-    for (int j = rect_.y0; j < rect_.y1; ++j) {
-        const float* const a = &planes_->a[slot(rect_.x0, j)];
-        if (std::any_of(a, a + rect_.width(), [done](float alpha) { return alpha < done; })) {
-            return false;
-        }
-    }
-    return true;
 }
 
 // The cell behind the slice.
@@ -129,21 +94,21 @@ std::int64_t Tile<Code>::micro_layer(std::int64_t k) const {
     return cell_of(k) / CodeVolume::micro_edge - codes_.micro_bricks().first(plan_.face().axis);
 }
 
-// With the pixels of the tile that the sub-volume owns on it, counted from the tile's first; its voxels are
-// found later.
+// With the pixels of the tile that the sub-volume owns on it and that have light left, counted from the
+// tile's first; its voxels are found later.
 template <class Code>
 Slice<Code> Tile<Code>::slice_of(std::int64_t k) const {
     const SlicePlan& plan = plan_.slice_plan(k);
-    const Rect pixels = intersection(rect_, plan.owned);
-    return {
-        .voxels = nullptr,
-        .next = nullptr,
-        .fast_offset = plan.map.u_offset,
-        .fast_scale = plan.map.u_scale,
-        .slow_offset = plan.map.v_offset,
-        .slow_scale = plan.map.v_scale,
-        .pixels = {pixels.x0 - rect_.x0, pixels.y0 - rect_.y0, pixels.x1 - rect_.x0, pixels.y1 - rect_.y0},
-        .lengths = nullptr};
+    const Rect owned{plan.owned.x0 - rect_.x0, plan.owned.y0 - rect_.y0, plan.owned.x1 - rect_.x0,
+                     plan.owned.y1 - rect_.y0};
+    return {.voxels = nullptr,
+            .next = nullptr,
+            .fast_offset = plan.map.u_offset,
+            .fast_scale = plan.map.u_scale,
+            .slow_offset = plan.map.v_offset,
+            .slow_scale = plan.map.v_scale,
+            .pixels = intersection(live_, owned),
+            .lengths = nullptr};
 }
 
 // Slices that lie in one layer of micro-bricks, each with some pixels.
@@ -249,6 +214,10 @@ void Tile<Code>::render_piece(Slices slices, std::span<const std::int64_t> numbe
 // Parts of slices to be visited alike. Where it is the whole of them, so will the next slices be.
 template <class Code>
 void Tile<Code>::render_part(Slices slices, std::span<const std::int64_t> numbers, Visit visit, bool whole) {
+    if (!begun_) {
+        begin_rays();
+        begun_at_ = cell_of(numbers.front());
+    }
     if (classification_.segments) {
         render_segments(slices, numbers, visit, whole);
         return;
@@ -319,61 +288,6 @@ void Tile<Code>::note_met(const VoxelRegion& region) {
                     met_[brick].store(1, std::memory_order_relaxed);
                 }
             }
-        }
-    }
-}
-
-template <class Code>
-Rays Tile<Code>::rays() {
-    return {.r = planes_->r.data(),
-            .g = planes_->g.data(),
-            .b = planes_->b.data(),
-            .a = planes_->a.data(),
-            .stride = stride,
-            .done = plan_.opaque()};
-}
-
-// Most samples stand for a whole step. Those that do not are at the rim of what the cube covers on a slice.
-template <class Code>
-const float* Tile<Code>::lengths_on(std::int64_t k, const Rect& pixels, Plane& spare) {
-    const Rect& inner = plan_.slice_plan(k).whole;
-    const Rect plain = intersection(
-        pixels, {inner.x0 - rect_.x0, inner.y0 - rect_.y0, inner.x1 - rect_.x0, inner.y1 - rect_.y0});
-    if (plain == pixels) {
-        return planes_->steps.data();
-    }
-    for (int j = pixels.y0; j < pixels.y1; ++j) {
-        const auto first = static_cast<std::size_t>(j * stride);
-        const float* const steps = &planes_->steps[first];
-        float* const lengths = &spare[first];
-        const bool plain_row = plain.y0 <= j && j < plain.y1 && plain.x0 < plain.x1;
-        const int plain0 = plain_row ? plain.x0 : pixels.x1;
-        const int plain1 = plain_row ? plain.x1 : pixels.x1;
-        std::copy(steps + plain0, steps + plain1, lengths + plain0);
-        for (const auto& [i0, i1] : {std::pair{pixels.x0, plain0}, {plain1, pixels.x1}}) {
-            if (i0 < i1) {
-                plan_.shares(k, i0 + rect_.x0, j + rect_.y0, {lengths + i0, lengths + i1});
-                std::transform(lengths + i0, lengths + i1, steps + i0, lengths + i0, std::multiplies<>());
-            }
-        }
-    }
-    return spare.data();
-}
-
-template <class Code>
-void Tile<Code>::store(image::Window& window) const {
-    const OpacityTable& table = classification_.table;
-    const auto hue_r = static_cast<float>(table.hue().r);
-    const auto hue_g = static_cast<float>(table.hue().g);
-    const auto hue_b = static_cast<float>(table.hue().b);
-    for (int j = rect_.y0; j < rect_.y1; ++j) {
-        for (int i = rect_.x0; i < rect_.x1; ++i) {
-            const std::size_t n = slot(i, j);
-            const float r = planes_->r[n];
-            const Rect at = plan_.turn({i, j, i, j});
-            window.pixels.at(at.x0 - window.rect.x0, at.y0 - window.rect.y0) =
-                table.one_hue() ? image::RgbaF{r * hue_r, r * hue_g, r * hue_b, planes_->a[n]}
-                                : image::RgbaF{r, planes_->g[n], planes_->b[n], planes_->a[n]};
         }
     }
 }

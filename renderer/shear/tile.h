@@ -52,10 +52,11 @@ class Tile {
         MicroLayer::Run run;
         MicroRun rows;
     };
-    using Block = std::array<VoxelRegion, 4>;  // parts of what is turned together
+    static constexpr std::int64_t turned_planes = 2 * CodeVolume::micro_edge;  // of a part
+    static constexpr std::int64_t most_turned = 4;  // as many parts together as lie in a line of the cache
     class Segments;
 
-    void prepare_rays();
+    void begin_rays();
     std::int64_t cell_of(std::int64_t k) const;
     std::int64_t micro_layer(std::int64_t k) const;
     Slice<Code> slice_of(std::int64_t k) const;
@@ -73,11 +74,11 @@ class Tile {
     VoxelRegion region_of(const MicroRun& fast, const MicroRun& slow,
                           std::span<const std::int64_t> numbers) const;
     VoxelRegion between_planes(std::int64_t lo, std::int64_t hi) const;
-    Block block_of(const VoxelRegion& region) const;
+    std::vector<VoxelRegion> block_of(const VoxelRegion& region) const;
     VoxelRegion behind(const VoxelRegion& region) const;
     void note_met(const VoxelRegion& region);
     const float* lengths_on(std::int64_t k, const view::Rect& pixels, Plane& spare);
-    bool opaque() const;
+    void narrow_live();
     Rays rays();
     std::size_t slot(int i, int j) const {
         return static_cast<std::size_t>((j - rect_.y0) * stride + i - rect_.x0);
@@ -92,6 +93,9 @@ class Tile {
     BricksMet& met_;
     TileVoxels<Code> voxels_;
     view::Rect rect_;
+    bool begun_ = false;         // whether some ray may have met something
+    view::Rect live_;            // about the rays that are not done, counted from the tile's first
+    std::int64_t begun_at_ = 0;  // the plane that was met first
     bool between_nodes_ = true, faint_ = false;
     std::uint64_t samples_ = 0;
     std::unique_ptr<Planes> planes_;

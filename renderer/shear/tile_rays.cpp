@@ -1,0 +1,156 @@
+// What a tile's rays have gathered, and the lengths that their samples stand for.
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "renderer/shear/tile.h"
+
+namespace shearwater::shear {
+
+using view::Rect;
+
+namespace {
+
+// Extinctions of nodes that differ by less than these halvings of light a step are not told apart: as much as
+// one opacity in a hundred, at most half of which a sample is wrong by, this way or that.
+constexpr float jump_seen = 1.0F / 64;
+
+}  // namespace
+
+// Where the first of them meets something: many tiles' rays meet nothing.
+template <class Code>
+void Tile<Code>::begin_rays() {
+    begun_ = true;
+    for (Plane* const plane : {&planes_->r, &planes_->g, &planes_->b, &planes_->a}) {
+        plane->fill(0);
+    }
+    const float unit = classification_.segments ? 1 : classification_.table.depth_unit();
+    float longest = 0;
+    for (int j = rect_.y0; j < rect_.y1; ++j) {
+        const std::span<float> row(&planes_->steps[slot(rect_.x0, j)],
+                                   static_cast<std::size_t>(rect_.width()));
+        plan_.steps(rect_.x0, j, row);
+        for (float& step : row) {
+            // Finite, so that times no extinction it is nothing.
+            step = std::min(step * unit, 1e38F);
+            longest = std::max(longest, step);
+        }
+    }
+    between_nodes_ = classification_.table.steepest() * longest > jump_seen;
+    // A ray's first sample and its last may stand for two steps.
+    faint_ = OpacityTable::largest * 2 * longest <= few_halvings;
+}
+
+// Rays that are done stay so: only the rim of what was live has to be looked at.
+template <class Code>
+void Tile<Code>::narrow_live() {
+    const float* const a = planes_->a.data();
+    const auto is_live = [a, done = plan_.opaque()](int i, int j) { return a[j * stride + i] < done; };
+    const auto any_in = [&](int x0, int y0, int x1, int y1) {
+        for (int j = y0; j < y1; ++j) {
+            for (int i = x0; i < x1; ++i) {
+                if (is_live(i, j)) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    };
+    Rect& live = live_;
+    while (live.y0 < live.y1 && !any_in(live.x0, live.y0, live.x1, live.y0 + 1)) {
+        ++live.y0;
+    }
+    while (live.y0 < live.y1 && !any_in(live.x0, live.y1 - 1, live.x1, live.y1)) {
+        --live.y1;
+    }
+    while (live.y0 < live.y1 && !any_in(live.x0, live.y0, live.x0 + 1, live.y1)) {
+        ++live.x0;
+    }
+    while (live.y0 < live.y1 && !any_in(live.x1 - 1, live.y0, live.x1, live.y1)) {
+        --live.x1;
+    }
+}
+
+template <class Code>
+Rays Tile<Code>::rays() {
+    return {.r = planes_->r.data(),
+            .g = planes_->g.data(),
+            .b = planes_->b.data(),
+            .a = planes_->a.data(),
+            .stride = stride,
+            .done = plan_.opaque()};
+}
+
+// Most samples stand for a whole step. Those that do not are at the rim of what the cube covers on a slice.
+template <class Code>
+const float* Tile<Code>::lengths_on(std::int64_t k, const Rect& pixels, Plane& spare) {
+    const Rect& inner = plan_.slice_plan(k).whole;
+    const Rect plain = intersection(
+        pixels, {inner.x0 - rect_.x0, inner.y0 - rect_.y0, inner.x1 - rect_.x0, inner.y1 - rect_.y0});
+    if (plain == pixels) {
+        return planes_->steps.data();
+    }
+    for (int j = pixels.y0; j < pixels.y1; ++j) {
+        const auto first = static_cast<std::size_t>(j * stride);
+        const float* const steps = &planes_->steps[first];
+        float* const lengths = &spare[first];
+        const bool plain_row = plain.y0 <= j && j < plain.y1 && plain.x0 < plain.x1;
+        const int plain0 = plain_row ? plain.x0 : pixels.x1;
+        const int plain1 = plain_row ? plain.x1 : pixels.x1;
+        std::copy(steps + plain0, steps + plain1, lengths + plain0);
+        for (const auto& [i0, i1] : {std::pair{pixels.x0, plain0}, {plain1, pixels.x1}}) {
+            if (i0 < i1) {
+                plan_.shares(k, i0 + rect_.x0, j + rect_.y0, {lengths + i0, lengths + i1});
+                std::transform(lengths + i0, lengths + i1, steps + i0, lengths + i0, std::multiplies<>());
+            }
+        }
+    }
+    return spare.data();
+}
+
+template <class Code>
+void Tile<Code>::store(image::Window& window) const {
+    const OpacityTable& table = classification_.table;
+    const bool one_hue = table.one_hue();
+    const auto hue_r = static_cast<float>(table.hue().r);
+    const auto hue_g = static_cast<float>(table.hue().g);
+    const auto hue_b = static_cast<float>(table.hue().b);
+    const Rect at = plan_.turn(rect_);
+    const int x0 = at.x0 - window.rect.x0;
+    const std::size_t stride_out = plan_.turned() ? static_cast<std::size_t>(window.rect.width()) : 1;
+    for (int j = 0; j < rect_.height(); ++j) {
+        const auto first = static_cast<std::size_t>(j * stride);
+        image::RgbaF* const out = plan_.turned() ? &window.pixels.at(x0 + j, at.y0 - window.rect.y0)
+                                                 : &window.pixels.at(x0, at.y0 - window.rect.y0 + j);
+        const auto count = static_cast<std::size_t>(rect_.width());
+        const auto put = [&](const auto& pixel) {
+            for (std::size_t i = 0; i < count; ++i) {
+                out[i * stride_out] = pixel(first + i);
+            }
+        };
+        const Planes& p = *planes_;
+        if (!begun_) {
+            put([](std::size_t) { return image::RgbaF{}; });
+        } else if (one_hue) {
+            put([&](std::size_t n) {
+                return image::RgbaF{p.r[n] * hue_r, p.r[n] * hue_g, p.r[n] * hue_b, p.a[n]};
+            });
+        } else {
+            put([&](std::size_t n) { return image::RgbaF{p.r[n], p.g[n], p.b[n], p.a[n]}; });
+        }
+    }
+}
+
+template void Tile<std::uint8_t>::begin_rays();
+template void Tile<std::uint8_t>::narrow_live();
+template Rays Tile<std::uint8_t>::rays();
+template const float* Tile<std::uint8_t>::lengths_on(std::int64_t, const Rect&, Plane&);
+template void Tile<std::uint8_t>::store(image::Window&) const;
+template void Tile<std::uint16_t>::begin_rays();
+template void Tile<std::uint16_t>::narrow_live();
+template Rays Tile<std::uint16_t>::rays();
+template const float* Tile<std::uint16_t>::lengths_on(std::int64_t, const Rect&, Plane&);
+template void Tile<std::uint16_t>::store(image::Window&) const;
+
+}  // namespace shearwater::shear
