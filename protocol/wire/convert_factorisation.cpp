@@ -73,7 +73,9 @@ pb::Factorisation to_wire(const view::Factorisation& factorisation) {
     set(*to.mutable_direction(), factorisation.direction);
     to.set_slice_exponent(factorisation.slice_exponent);
     to.set_classification(to_wire(factorisation.classify));
-    to.set_opaque(factorisation.opaque);
+    if (factorisation.opaque != view::opaque_enough) {
+        to.set_opaque(factorisation.opaque);
+    }
     for (const view::Face& face : factorisation.faces) {
         *to.add_faces() = to_wire(face);
     }

@@ -107,7 +107,10 @@ struct Part {
     std::int64_t first_tile;  // of the face's
     std::atomic<std::int64_t> tiles_left;
     std::once_flag begun;
-    Window window;
+    std::atomic<bool> has_pixels = false;
+    Window window;  // without pixels as long as no tile has any
+    std::mutex mutex;
+    std::vector<Rect> clear;  // tiles without, to be filled in if the window has pixels in the end
 };
 
 template <class Code>
@@ -130,7 +133,6 @@ class FaceRenderer {
         part.first_tile = tiles_;
         part.tiles_left = std::int64_t{part.across} * down;
         part.window.face = cut.face;
-        part.window.rect = plan_.turn(rect);
         tiles_ += part.tiles_left;
     }
 
@@ -145,10 +147,6 @@ class FaceRenderer {
     void paint(std::int64_t n) {
         const auto after = std::ranges::upper_bound(parts_, n, {}, &Part::first_tile);
         Part& part = *std::prev(after);
-        std::call_once(part.begun, [&part] {
-            const Rect& rect = part.window.rect;
-            part.window.pixels = image::Image<image::RgbaF>(rect.width(), rect.height(), image::Unfilled());
-        });
         const int x =
             part.rect.x0 + static_cast<int>((n - part.first_tile) % part.across) * Tile<Code>::width;
         const int y =
@@ -157,12 +155,39 @@ class FaceRenderer {
             return std::make_unique<Tile<Code>>(frame_.volume, frame_.classification, frame_.contents, plan_,
                                                 frame_.met);
         });
-        tile->render(intersection(part.rect, {x, y, x + Tile<Code>::width, y + Tile<Code>::height}));
-        tile->store(part.window);
+        const Rect rect = intersection(part.rect, {x, y, x + Tile<Code>::width, y + Tile<Code>::height});
+        if (tile->render(rect)) {
+            std::call_once(part.begun, [&] {
+                const Rect all = plan_.turn(part.rect);
+                part.window.rect = all;
+                part.window.pixels = image::Image<image::RgbaF>(all.width(), all.height(), image::Unfilled());
+                part.has_pixels = true;
+            });
+            tile->store(part.window);
+        } else if (part.has_pixels) {
+            clear(part.window, plan_.turn(rect));
+        } else {
+            const std::lock_guard lock(part.mutex);
+            part.clear.push_back(plan_.turn(rect));
+        }
         idle_.give_back(std::move(tile));
         if (part.tiles_left.fetch_sub(1) == 1) {
+            if (part.has_pixels) {
+                for (const Rect& without : part.clear) {
+                    clear(part.window, without);
+                }
+            }
             order_.put(part.band, std::move(part.window));
             order_.tell();
+        }
+    }
+
+    static void clear(Window& window, const Rect& rect) {
+        for (int y = rect.y0; y < rect.y1; ++y) {
+            const auto row = window.pixels.row(y - window.rect.y0)
+                                 .subspan(static_cast<std::size_t>(rect.x0 - window.rect.x0),
+                                          static_cast<std::size_t>(rect.width()));
+            std::ranges::fill(row, image::RgbaF{});
         }
     }
 
@@ -211,7 +236,8 @@ RenderStats render_bands(const BrickVolume& volume, const Classification& classi
         "a volume is classified as the factorisation has it");
     const std::vector<Content>& all =
         classification.micro_bricks[static_cast<std::size_t>(factorisation.level())];
-    const std::vector<Content> seen = visible != nullptr
+    const bool any = visible == nullptr || sees_any(volume.box(), *visible);
+    const std::vector<Content> seen = visible != nullptr && any
                                           ? seen_contents(volume.level(factorisation.level()),
                                                           factorisation.level(), all, *visible, workers)
                                           : std::vector<Content>();
@@ -219,9 +245,13 @@ RenderStats render_bands(const BrickVolume& volume, const Classification& classi
                 .classification = classification,
                 .contents = visible != nullptr ? seen : all,
                 .met = BricksMet(volume.bricks().ranges().size())};
-    volume.mapping().bits == 8
-        ? render_faces<std::uint8_t>(frame, factorisation, bands, workers, on_bands, stop)
-        : render_faces<std::uint16_t>(frame, factorisation, bands, workers, on_bands, stop);
+    if (!any) {
+        on_bands({bands.size(), {}});
+    } else if (volume.mapping().bits == 8) {
+        render_faces<std::uint8_t>(frame, factorisation, bands, workers, on_bands, stop);
+    } else {
+        render_faces<std::uint16_t>(frame, factorisation, bands, workers, on_bands, stop);
+    }
     RenderStats stats = count(frame);
     if (visible != nullptr) {
         stats.bricks_culled = hidden_bricks(volume, classification.opaque, *visible);

@@ -67,6 +67,21 @@ class Seen {
 
 }  // namespace
 
+bool sees_any(const volume::Box& box, const culling::VisibleBlocks& visible) {
+    const volume::Box blocks = visible.grid.blocks_of(box);
+    for (std::int64_t z = blocks.lo[2]; z < blocks.hi[2]; ++z) {
+        for (std::int64_t y = blocks.lo[1]; y < blocks.hi[1]; ++y) {
+            const auto row =
+                visible.blocks.bytes().subspan(visible.grid.index({blocks.lo[0], y, z}),
+                                               static_cast<std::size_t>(blocks.hi[0] - blocks.lo[0]));
+            if (std::ranges::any_of(row, [](std::uint8_t seen) { return seen != 0; })) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 std::vector<Content> seen_contents(const CodeVolume& nodes, int level, std::span<const Content> contents,
                                    const culling::VisibleBlocks& visible, base::Workers& workers) {
     const Seen all(nodes.micro_bricks(), level, visible);

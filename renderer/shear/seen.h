@@ -12,6 +12,9 @@
 
 namespace shearwater::shear {
 
+// Whether a visible block has a part of a box of voxels.
+bool sees_any(const volume::Box& box, const culling::VisibleBlocks& visible);
+
 // Of a level's micro-bricks: those in no visible block have no opacity.
 std::vector<Content> seen_contents(const CodeVolume& nodes, int level, std::span<const Content> contents,
                                    const culling::VisibleBlocks& visible, base::Workers& workers);

@@ -44,7 +44,7 @@ Tile<Code>::Tile(const BrickVolume& volume, const Classification& classification
       planes_(std::make_unique<Planes>()) {}
 
 template <class Code>
-void Tile<Code>::render(const Rect& rect) {
+bool Tile<Code>::render(const Rect& rect) {
     rect_ = rect;
     begun_ = false;
     live_ = {0, 0, rect.width(), rect.height()};
@@ -67,7 +67,7 @@ void Tile<Code>::render(const Rect& rect) {
             if (layer_of_k != layer && begun_) {
                 narrow_live();
                 if (live_.empty()) {
-                    return;
+                    return true;
                 }
             }
         }
@@ -79,6 +79,7 @@ void Tile<Code>::render(const Rect& rect) {
         }
     }
     flush();
+    return begun_;
 }
 
 // The cell behind the slice.
@@ -216,7 +217,6 @@ template <class Code>
 void Tile<Code>::render_part(Slices slices, std::span<const std::int64_t> numbers, Visit visit, bool whole) {
     if (!begun_) {
         begin_rays();
-        begun_at_ = cell_of(numbers.front());
     }
     if (classification_.segments) {
         render_segments(slices, numbers, visit, whole);

@@ -32,9 +32,10 @@ class Tile {
     Tile(const BrickVolume& volume, const Classification& classification, std::span<const Content> contents,
          const FacePlan& plan, BricksMet& met);
 
-    // Renders the pixels of a rectangle of at most width x height, from nothing.
-    void render(const view::Rect& rect);
-    // Copies what was rendered to where it lies in the face's window.
+    // Renders the pixels of a rectangle of at most width x height, from nothing. False if they have met
+    // nothing.
+    bool render(const view::Rect& rect);
+    // Copies what was rendered, something, to where it lies in the face's window.
     void store(image::Window& window) const;
     std::uint64_t samples() const { return samples_; }  // of all rectangles
 
@@ -52,8 +53,7 @@ class Tile {
         MicroLayer::Run run;
         MicroRun rows;
     };
-    static constexpr std::int64_t turned_planes = 2 * CodeVolume::micro_edge;  // of a part
-    static constexpr std::int64_t most_turned = 4;  // as many parts together as lie in a line of the cache
+    using Block = std::array<VoxelRegion, 4>;  // parts of what is turned together
     class Segments;
 
     void begin_rays();
@@ -74,7 +74,7 @@ class Tile {
     VoxelRegion region_of(const MicroRun& fast, const MicroRun& slow,
                           std::span<const std::int64_t> numbers) const;
     VoxelRegion between_planes(std::int64_t lo, std::int64_t hi) const;
-    std::vector<VoxelRegion> block_of(const VoxelRegion& region) const;
+    Block block_of(const VoxelRegion& region) const;
     VoxelRegion behind(const VoxelRegion& region) const;
     void note_met(const VoxelRegion& region);
     const float* lengths_on(std::int64_t k, const view::Rect& pixels, Plane& spare);
@@ -93,9 +93,8 @@ class Tile {
     BricksMet& met_;
     TileVoxels<Code> voxels_;
     view::Rect rect_;
-    bool begun_ = false;         // whether some ray may have met something
-    view::Rect live_;            // about the rays that are not done, counted from the tile's first
-    std::int64_t begun_at_ = 0;  // the plane that was met first
+    bool begun_ = false;  // whether some ray may have met something
+    view::Rect live_;     // about the rays that are not done, counted from the tile's first
     bool between_nodes_ = true, faint_ = false;
     std::uint64_t samples_ = 0;
     std::unique_ptr<Planes> planes_;

@@ -130,9 +130,7 @@ void Tile<Code>::store(image::Window& window) const {
             }
         };
         const Planes& p = *planes_;
-        if (!begun_) {
-            put([](std::size_t) { return image::RgbaF{}; });
-        } else if (one_hue) {
+        if (one_hue) {
             put([&](std::size_t n) {
                 return image::RgbaF{p.r[n] * hue_r, p.r[n] * hue_g, p.r[n] * hue_b, p.a[n]};
             });

@@ -99,20 +99,20 @@ VoxelRegion Tile<Code>::between_planes(std::int64_t lo, std::int64_t hi) const {
 }
 
 // What the tile needs of the planes about a region, up to whole blocks of them: what is turned together, as
-// much as lies in a line of the cache, in parts, for rays move on sideways; less while the rays are young,
-// since dense ones do not get far. What begins in a part may end on a plane behind it.
+// much as lies in a line of the cache, in parts, for rays move on sideways. What begins in a part may end on
+// a plane behind it.
 template <class Code>
-std::vector<VoxelRegion> Tile<Code>::block_of(const VoxelRegion& region) const {
+typename Tile<Code>::Block Tile<Code>::block_of(const VoxelRegion& region) const {
+    constexpr std::int64_t edge = 2 * CodeVolume::micro_edge;
+    constexpr std::int64_t planes = edge * static_cast<std::int64_t>(std::tuple_size_v<Block>);
     const auto axis = static_cast<std::size_t>(plan_.face().axis);
-    const std::int64_t last = turned_planes - (classification_.segments || !plan_.on_planes() ? 0 : 1);
+    const std::int64_t last = edge - (classification_.segments || !plan_.on_planes() ? 0 : 1);
     const auto clamped = [&](std::int64_t w) { return std::clamp(w, nodes_.lo[axis], nodes_.hi[axis]); };
-    const std::int64_t gone = std::abs(region.lo[2] - begun_at_) / turned_planes;
-    const std::int64_t parts = gone < 2 ? 1 : gone < most_turned ? 2 : most_turned;
-    std::int64_t lo = region.lo[2] / (parts * turned_planes) * (parts * turned_planes);
-    std::vector<VoxelRegion> block;
-    for (std::int64_t part = 0; part < parts; ++part) {
-        block.push_back(between_planes(clamped(lo), clamped(lo + last)));
-        lo += turned_planes;
+    std::int64_t lo = region.lo[2] / planes * planes;
+    Block block;
+    for (VoxelRegion& part : block) {
+        part = between_planes(clamped(lo), clamped(lo + last));
+        lo += edge;
     }
     return block;
 }
@@ -131,14 +131,14 @@ template VoxelRegion Tile<std::uint8_t>::region_of(Slices, std::span<const std::
 template VoxelRegion Tile<std::uint8_t>::region_of(const MicroRun&, const MicroRun&,
                                                    std::span<const std::int64_t>) const;
 template VoxelRegion Tile<std::uint8_t>::between_planes(std::int64_t, std::int64_t) const;
-template std::vector<VoxelRegion> Tile<std::uint8_t>::block_of(const VoxelRegion&) const;
+template Tile<std::uint8_t>::Block Tile<std::uint8_t>::block_of(const VoxelRegion&) const;
 template VoxelRegion Tile<std::uint8_t>::behind(const VoxelRegion&) const;
 template VoxelRegion Tile<std::uint16_t>::region_of(Slices, std::span<const std::int64_t>,
                                                     const volume::Box&) const;
 template VoxelRegion Tile<std::uint16_t>::region_of(const MicroRun&, const MicroRun&,
                                                     std::span<const std::int64_t>) const;
 template VoxelRegion Tile<std::uint16_t>::between_planes(std::int64_t, std::int64_t) const;
-template std::vector<VoxelRegion> Tile<std::uint16_t>::block_of(const VoxelRegion&) const;
+template Tile<std::uint16_t>::Block Tile<std::uint16_t>::block_of(const VoxelRegion&) const;
 template VoxelRegion Tile<std::uint16_t>::behind(const VoxelRegion&) const;
 
 }  // namespace shearwater::shear

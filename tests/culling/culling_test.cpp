@@ -4,7 +4,9 @@
 
 #include <random>
 
+#include "common/image/warp.h"
 #include "deploy/bench/culled_pictures.h"
+#include "renderer/shear/render.h"
 #include "tests/culling/block.h"
 #include "tests/support/reference_cubes.h"
 
@@ -92,6 +94,78 @@ TEST(Culling, OfEachKindLeavesOutWhatThoseBeforeItDo) {
 TEST(Culling, OfAllDirectionsChangesNoPicture) {
     test::FloatCube waves = shells({110, 90, 101});
     expect_no_difference(waves, {3, 4, {.kind = Kind::opof, .threshold = 0.95}, 0.05});
+}
+
+// Where nothing is hidden, rays end at the threshold all the same: a picture lacks what lies behind, and no
+// more.
+TEST(Culling, EndsRays) {
+    base::Workers workers(2);
+    test::FloatCube noise = test::noise_cube({70, 60, 50});
+    const auto volume = test::bricks_of(noise, workers);
+    const view::Lattice lattice{.n = noise.n(), .spacing = {1, 1, 1}};
+    const auto camera = view::camera_on({.azimuth = 20, .elevation = 10}, lattice);
+    const view::ImageSize size{96, 80};
+    for (const auto classify : {view::Classify::post, view::Classify::pre_integrated}) {
+        auto f =
+            view::factorise(camera, size, lattice, view::sampling(view::Quality::normal, false, classify));
+        struct Drawn {
+            image::Image<image::RgbaF> picture;
+            shear::RenderStats stats;
+        };
+        const auto draw = [&] {
+            Drawn drawn;
+            const auto windows = shear::render(volume, f, ramp(0, 0.1, 1, 0.3), workers, &drawn.stats);
+            drawn.picture = image::warp_float(f, windows, camera, size, workers);
+            return drawn;
+        };
+        const Drawn all = draw();
+        double before = 1;
+        for (const double threshold : {0.998, 0.95, 0.8}) {
+            const Settings settings{.kind = Kind::opof, .threshold = threshold};
+            f.opaque = settings.opaque();
+            EXPECT_GT(f.opaque, threshold);
+            const Drawn some = draw();
+            const double share =
+                static_cast<double>(some.stats.samples) / static_cast<double>(all.stats.samples);
+            EXPECT_LT(share, 0.97 * before) << threshold;
+            before = share;
+            const auto most_lacked = [&](const auto& of) {
+                double most = 0;
+                for (std::size_t n = 0; n < all.picture.pixels().size(); ++n) {
+                    most = std::max(most, static_cast<double>(of(all.picture.pixels()[n]) -
+                                                              of(some.picture.pixels()[n])));
+                }
+                return most;
+            };
+            const double lacks = most_lacked([](const image::RgbaF& pixel) { return pixel.a; });
+            EXPECT_LE(lacks, 1 - threshold);
+            EXPECT_GT(lacks, (1 - threshold) / 4);
+            EXPECT_LE(most_lacked([](const image::RgbaF& pixel) { return pixel.r; }), 1 - threshold);
+        }
+    }
+    EXPECT_EQ(Settings{}.opaque(), double{view::opaque_enough});
+    EXPECT_EQ((Settings{.kind = Kind::pof, .threshold = 0.99999}).opaque(), double{view::opaque_enough});
+}
+
+// A sub-volume of which nothing is visible sends no pixels, and one of which little is those of that little.
+TEST(Culling, DrawsNoMoreThanIsVisible) {
+    base::Workers workers(2);
+    test::FloatCube noise = test::noise_cube({70, 60, 50});
+    const auto volume = test::bricks_of(noise, workers);
+    const view::Lattice lattice{.n = noise.n(), .spacing = {1, 1, 1}};
+    const auto f = view::factorise(view::camera_on({.azimuth = 20, .elevation = 10}, lattice), {96, 80},
+                                   lattice, view::sampling(view::Quality::normal));
+    const auto classification = shear::classify(volume, ramp(0, 0.1, 1, 0.3), f.classify, workers);
+    VisibleBlocks visible{BlockGrid(noise.n()), BlockSet(BlockGrid(noise.n()).size())};
+    shear::RenderStats stats;
+    EXPECT_TRUE(shear::render(volume, classification, f, workers, &stats, {}, &visible).empty());
+    EXPECT_EQ(stats.samples, 0U);
+    EXPECT_EQ(stats.bricks_culled, stats.bricks_total);
+    visible.blocks.bytes()[visible.grid.index({1, 1, 0})] = 1;
+    shear::render(volume, classification, f, workers, &stats, {}, &visible);
+    EXPECT_GT(stats.samples, 0U);
+    EXPECT_EQ(stats.bricks_culled, stats.bricks_total - 1);
+    EXPECT_LE(stats.bricks_rendered, 2U);
 }
 
 // Rays along stripes of two neighbouring codes see through a slit between them, where no voxel has it.

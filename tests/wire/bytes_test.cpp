@@ -295,6 +295,17 @@ TEST(Bytes, OfPreIntegratedClassification) {
     EXPECT_EQ(to_wire(changed).SerializeAsString(), plain.SerializeAsString() + "\x38\x01");
 }
 
+TEST(Bytes, OfRaysThatAreDoneSooner) {
+    const pb::Factorisation plain = to_wire(factorisation());
+    view::Factorisation changed = factorisation();
+    changed.opaque = 0.75;
+    using namespace std::string_literals;
+    EXPECT_EQ(to_wire(changed).SerializeAsString(),
+              plain.SerializeAsString() + "\x41\x00\x00\x00\x00\x00\x00\xe8\x3f"s);
+    EXPECT_EQ(factorisation_from(to_wire(changed)).value().opaque, 0.75);
+    EXPECT_EQ(factorisation_from(plain).value().opaque, double{view::opaque_enough});
+}
+
 TEST(Bytes, OfEveryMessageAreReadBack) {
     for (const Message& example : all_examples()) {
         const std::vector<std::byte> head = encode_head(example);

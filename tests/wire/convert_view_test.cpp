@@ -293,6 +293,9 @@ TEST(FactorisationConversion, Hostile) {
             f.set_classification(static_cast<pb::Classification>(classification));
         });
     }
+    for (const double opaque : {-0.5, 1.0, 2.0, not_finite, inf}) {
+        refused("opaque", [&](pb::Factorisation& f) { f.set_opaque(opaque); });
+    }
     refused("projection", [](pb::Factorisation& f) { f.set_projection(static_cast<pb::Projection>(7)); });
     refused("lattice", [](pb::Factorisation& f) { f.clear_lattice(); });
     for (const std::uint32_t axis : {3U, 0xFFFFFFFFU}) {
