@@ -60,45 +60,42 @@ void FunctionStore::put(const FunctionKey& key, std::shared_ptr<const FunctionTa
     base::check(table->side == directions_.side() && table->block_count() == grid_.size() &&
                     table->codes.size() == grid_.size() * static_cast<std::size_t>(directions_.cells()),
                 "a table is of the whole grid and all directions");
-    asked_.reset();
-    for (auto& [there, old] : tables_) {
-        if (there == key) {
-            old = std::move(table);
-            return;
-        }
-    }
-    tables_.emplace_back(key, std::move(table));
+    erase(key);
+    const std::uint8_t greatest = table->codes.empty() ? std::uint8_t{0} : std::ranges::max(table->codes);
+    tables_.push_back({key, std::move(table), greatest});
 }
 
 void FunctionStore::erase(const FunctionKey& key) {
     asked_.reset();
-    std::erase_if(tables_, [&](const auto& table) { return table.first == key; });
+    std::erase_if(tables_, [&](const Kept& kept) { return kept.key == key; });
+}
+
+const FunctionStore::Kept* FunctionStore::kept(const FunctionKey& key) const {
+    const auto found = std::ranges::find(tables_, key, &Kept::key);
+    return found != tables_.end() ? &*found : nullptr;
 }
 
 const FunctionTable* FunctionStore::find(const FunctionKey& key) const {
-    for (const auto& [there, table] : tables_) {
-        if (there == key) {
-            return table.get();
-        }
-    }
-    return nullptr;
+    const Kept* const found = kept(key);
+    return found != nullptr ? found->table.get() : nullptr;
 }
 
 FunctionStore::Combined FunctionStore::combined(Footprint footprint) const {
     std::vector<Member> members;
     std::vector<Scaled> scaled;
-    float most = 0;
+    float most = 0, greatest = 0;
     for (const Member& member : members_of(asked_->tf)) {
-        if (const FunctionTable* const table = find({footprint, member.basis, asked_->level})) {
+        if (const Kept* const found = kept({footprint, member.basis, asked_->level})) {
             // A density multiplies all extinctions alike.
-            scaled.push_back({table, rates_by_code([&](double rate) {
+            scaled.push_back({found->table.get(), rates_by_code([&](double rate) {
                                   return asked_->tf.density * lifted(rate, member.height, asked_->distance);
                               })});
             most = std::max(most, scaled.back().rate[most_code]);
+            greatest += scaled.back().rate[found->greatest];
             members.push_back(member);
         }
     }
-    return {footprint, most, std::move(scaled), Combination(members), {}};
+    return {footprint, most, greatest, std::move(scaled), Combination(members), {}};
 }
 
 std::vector<BlockRates> FunctionStore::rates(const view::TransferFunction& tf, Kind kind, int level,
@@ -118,7 +115,8 @@ std::vector<BlockRates> FunctionStore::rates(const view::TransferFunction& tf, K
                          },
                          each.scaled.size() == 1 ? each.scaled[0].rate : rates_by_code([&](double rate) {
                              return rate * static_cast<double>(each.most);
-                         })});
+                         }),
+                         each.greatest});
     }
     return rates;
 }

@@ -40,6 +40,11 @@ class FunctionStore {
     std::vector<BlockRates> rates(const view::TransferFunction& tf, Kind kind, int level, double distance);
 
   private:
+    struct Kept {
+        FunctionKey key;
+        std::shared_ptr<const FunctionTable> table;
+        std::uint8_t greatest;  // of its codes
+    };
     struct Scaled {
         const FunctionTable* table;
         std::array<float, 256> rate;  // of a code, at the member's height
@@ -53,12 +58,14 @@ class FunctionStore {
     };
     struct Combined {
         Footprint footprint;
-        float most;  // of a combined code
+        float most;      // of a combined code
+        float greatest;  // that there is
         std::vector<Scaled> scaled;
         Combination combination;
         std::map<int, std::vector<std::uint8_t>> of;  // by direction cell, unless there is but one table
     };
 
+    const Kept* kept(const FunctionKey& key) const;
     Combined combined(Footprint footprint) const;
     std::vector<BlockRates::Codes> codes_of(Combined& combined, std::span<const int> cells,
                                             base::Workers& workers) const;
@@ -66,7 +73,7 @@ class FunctionStore {
 
     BlockGrid grid_;
     DirectionGrid directions_;
-    std::vector<std::pair<FunctionKey, std::shared_ptr<const FunctionTable>>> tables_;
+    std::vector<Kept> tables_;
     std::optional<Asked> asked_;  // last, and what came of it:
     std::vector<Combined> combined_;
 };

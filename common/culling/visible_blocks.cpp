@@ -20,6 +20,10 @@ namespace {
 // a part of its depth, or little more.
 constexpr double lack = 1.0 / 200;
 
+double depth_that_hides(const Settings& settings) {
+    return -std::log1p(-settings.threshold) * (1 + lack);
+}
+
 // What functions of one footprint say along the beams of a face.
 struct Said {
     const std::array<float, 256>& rate;
@@ -35,7 +39,7 @@ class FacePass {
         : face_(face),
           grid_(grid),
           kind_(settings.kind),
-          depth_(-std::log1p(-settings.threshold) * (1 + lack)),
+          depth_(depth_that_hides(settings)),
           visible_(visible),
           beams_(factorisation, face, grid),
           u_met_(beams_.met(beams_.u(), face.u_axis())),
@@ -173,10 +177,27 @@ class FacePass {
     std::vector<Said> said_;
 };
 
+// Whether a ray through all of the cube may have so much depth by the greatest of all rates. By no kind has
+// it more along a way than by opof.
+bool may_hide(const view::Lattice& lattice, std::span<const BlockRates> rates, double depth) {
+    const view::Vec3& spacing = lattice.spacing;
+    double square = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double side = static_cast<double>(lattice.n[static_cast<std::size_t>(axis)]) * spacing[axis];
+        square += side * side;
+    }
+    const double steps = std::sqrt(square) / std::min({spacing.x, spacing.y, spacing.z});
+    return std::ranges::any_of(
+        rates, [&](const BlockRates& of) { return static_cast<double>(of.greatest) * steps >= depth; });
+}
+
 }  // namespace
 
 BlockSet visible_blocks(const Factorisation& factorisation, const BlockGrid& grid,
                         std::span<const BlockRates> rates, const Settings& settings, base::Workers& workers) {
+    if (!may_hide(factorisation.lattice, rates, depth_that_hides(settings))) {
+        return BlockSet(grid.size(), true);
+    }
     BlockSet visible(grid.size());
     for (const Face& face : factorisation.faces) {
         FacePass pass(factorisation, face, grid, rates, settings, visible, workers);

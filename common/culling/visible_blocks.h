@@ -42,10 +42,12 @@ struct BlockRates {
     std::function<std::vector<Codes>(std::span<const int> cells, base::Workers& workers)> of;
     // Of a code, rising with it: optical depth along the smallest distance of two voxels.
     std::array<float, 256> rate;
+    float greatest;  // no block's is more, in no direction
 };
 
 // The rates are of the functions that the settings' kind goes by, which is not off, or of some of them. Of a
-// cropped cube only blocks that are shown from end to end hide anything.
+// cropped cube only blocks that are shown from end to end hide anything. All are visible where no ray could
+// be hidden even if every block were as dense as the densest.
 BlockSet visible_blocks(const view::Factorisation& factorisation, const BlockGrid& grid,
                         std::span<const BlockRates> rates, const Settings& settings, base::Workers& workers);
 

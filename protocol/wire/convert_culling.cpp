@@ -43,6 +43,9 @@ Parsed<culling::FunctionKey> function_key_from(const pb::FunctionKey& key) {
 
 void put(const culling::VisibleBlocks& visible, pb::Render& render) {
     base::check(visible.blocks.size() <= most_blocks, "a frame's request has room for its blocks");
+    if (visible.blocks.count() == visible.blocks.size()) {
+        return;
+    }
     std::string& bits = *render.mutable_visible();
     bits.assign((visible.blocks.size() + 7) / 8, 0);
     for (std::size_t block = 0; block < visible.blocks.size(); ++block) {

@@ -17,7 +17,7 @@ inline constexpr std::size_t most_codes = std::size_t{8} << 20;
 pb::FunctionKey to_wire(const culling::FunctionKey& key);
 Parsed<culling::FunctionKey> function_key_from(const pb::FunctionKey& key);
 
-// What is visible, into a frame's request; and out of it, for a cube of n voxels, if it says.
+// What is visible, into a frame's request, where not all is; and out of it, for a cube of n voxels, if it says.
 void put(const culling::VisibleBlocks& visible, pb::Render& render);
 Parsed<std::optional<culling::VisibleBlocks>> visible_from(const pb::Render& render, const volume::Index3& n);
 

@@ -44,6 +44,7 @@ TEST(Culling, VisibleBlocksComeBack) {
         for (std::uint8_t& in : visible.blocks.bytes()) {
             in = static_cast<std::uint8_t>(random() % 2);
         }
+        visible.blocks.bytes()[random() % 8] = 0;
         pb::Render render;
         put(visible, render);
         const auto back = visible_from(render, n).value();
@@ -52,11 +53,14 @@ TEST(Culling, VisibleBlocksComeBack) {
         EXPECT_EQ(back->blocks, visible.blocks);
     }
     EXPECT_FALSE(visible_from(pb::Render(), n).value().has_value()) << "all are";
+    pb::Render all;
+    put({visible.grid, culling::BlockSet(8, true)}, all);
+    EXPECT_EQ(all.ByteSizeLong(), 0U) << "all are";
 }
 
 TEST(Culling, VisibleBlocksOfAnotherCubeAreRefused) {
     pb::Render render;
-    put({culling::BlockGrid(n), culling::BlockSet(8, true)}, render);
+    put({culling::BlockGrid(n), culling::BlockSet(8)}, render);
     EXPECT_TRUE(visible_from(render, {400, 40, 33}).has_error());
     render.set_block_edge(16);
     EXPECT_TRUE(visible_from(render, n).has_error());
