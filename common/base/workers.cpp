@@ -1,6 +1,6 @@
 #include "common/base/workers.h"
 
-#include <sys/resource.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <atomic>
@@ -25,9 +25,9 @@ struct Workers::Loop {
 };
 
 void run_in_background() {
-    constexpr int tenth = 10;
     // Of this thread, 0. Only advice: where it is not taken, the thread competes.
-    static_cast<void>(setpriority(PRIO_PROCESS, 0, tenth));
+    const sched_param none{};
+    static_cast<void>(sched_setscheduler(0, SCHED_IDLE, &none));
 }
 
 Workers::Workers(int threads, Priority priority) {

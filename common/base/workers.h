@@ -11,7 +11,7 @@
 
 namespace shearwater::base {
 
-// Lets the calling thread go on beside others that want the processor, at a tenth of their pace.
+// Lets the calling thread go on beside others that want the processor, in what time they leave.
 void run_in_background();
 
 class Workers {
