@@ -13,9 +13,9 @@ std::span<const Footprint> footprints_of(Kind kind) {
 
 double Settings::opaque() const {
     constexpr double enough = view::opaque_enough;
-    // Rays that are next to one another may end far apart, and between pixels the warp's cubic (Catmull-Rom)
-    // makes as much more of what they lack: the sum of its weights above 0, (9/8)^2 + (1/8)^2.
-    constexpr double overshoot = 41.0 / 32;
+    // Rays next to one another may end far apart, one too bright and one too dark, and between pixels the
+    // warp's cubic (Catmull-Rom) makes as much more of it as its weights' sizes sum up to, (9/8 + 1/8)^2.
+    constexpr double overshoot = 25.0 / 16;
     return kind == Kind::off ? enough : std::min(1 - (1 - threshold) / overshoot, enough);
 }
 

@@ -29,8 +29,8 @@ std::span<const Footprint> footprints_of(Kind kind);
 struct Settings {
     Kind kind = Kind::off;
     // What lies behind so much opacity is left out: a block that every ray has it before, and the rest of a
-    // ray's way through a sub-volume that gives it. A picture lacks at most what is left of the light,
-    // here less than half a level of 255.
+    // ray's way through a sub-volume that gives it, which is then as good as opaque. A picture differs at
+    // most by what is left of the light, here less than half a level of 255.
     double threshold = default_threshold;
 
     // At which rays are done (view::Sampling).

@@ -42,8 +42,8 @@ enum class Classify {
     post,            // to each sample after interpolation
     pre_integrated,  // to all values between two samples, in advance (Engel, Kraus & Ertl 2001)
 };
-// A ray with so much opacity is done, where nothing else is wanted: what is left of its light is well below
-// half a level of 255.
+// A ray with so much opacity is done, where nothing else is wanted, and as good as opaque: what is left of its
+// light is well below half a level of 255.
 inline constexpr float opaque_enough = 1 - 1.0F / 4096;
 // How densely rays are sampled, and how far. Opacity does not depend on it, but by what a ray that is done
 // leaves out.

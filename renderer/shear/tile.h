@@ -35,7 +35,7 @@ class Tile {
     // Renders the pixels of a rectangle of at most width x height, from nothing. False if they have met
     // nothing.
     bool render(const view::Rect& rect);
-    // Copies what was rendered, something, to where it lies in the face's window.
+    // Copies what was rendered, something, to where it lies in the face's window; rays that are done as opaque.
     void store(image::Window& window) const;
     std::uint64_t samples() const { return samples_; }  // of all rectangles
 

@@ -113,6 +113,7 @@ template <class Code>
 void Tile<Code>::store(image::Window& window) const {
     const OpacityTable& table = classification_.table;
     const bool one_hue = table.one_hue();
+    const float done = plan_.opaque();
     const auto hue_r = static_cast<float>(table.hue().r);
     const auto hue_g = static_cast<float>(table.hue().g);
     const auto hue_b = static_cast<float>(table.hue().b);
@@ -124,18 +125,23 @@ void Tile<Code>::store(image::Window& window) const {
         image::RgbaF* const out = plan_.turned() ? &window.pixels.at(x0 + j, at.y0 - window.rect.y0)
                                                  : &window.pixels.at(x0, at.y0 - window.rect.y0 + j);
         const auto count = static_cast<std::size_t>(rect_.width());
-        const auto put = [&](const auto& pixel) {
+        const auto put = [&](const auto& at_slot) {
             for (std::size_t i = 0; i < count; ++i) {
-                out[i * stride_out] = pixel(first + i);
+                out[i * stride_out] = at_slot(first + i);
             }
         };
         const Planes& p = *planes_;
+        // What a ray that is done would have gathered yet is taken to be as what it has: else it would be
+        // darker than its neighbours, and another sub-volume's light would shine through.
+        const auto pixel = [&](std::size_t n, float r, float g, float b) {
+            const bool is_done = p.a[n] >= done;
+            const float whole = is_done ? 1 / p.a[n] : 1;
+            return image::RgbaF{r * whole, g * whole, b * whole, is_done ? 1 : p.a[n]};
+        };
         if (one_hue) {
-            put([&](std::size_t n) {
-                return image::RgbaF{p.r[n] * hue_r, p.r[n] * hue_g, p.r[n] * hue_b, p.a[n]};
-            });
+            put([&](std::size_t n) { return pixel(n, p.r[n] * hue_r, p.r[n] * hue_g, p.r[n] * hue_b); });
         } else {
-            put([&](std::size_t n) { return image::RgbaF{p.r[n], p.g[n], p.b[n], p.a[n]}; });
+            put([&](std::size_t n) { return pixel(n, p.r[n], p.g[n], p.b[n]); });
         }
     }
 }
