@@ -13,10 +13,10 @@ namespace shearwater::culling {
 namespace {
 
 // Beyond what is computed here: an interval that is a little too long still holds for its lines.
-constexpr double slack = 1e-9;
+constexpr double angle_slack = 1e-9;
 
 Interval hull(std::initializer_list<double> values) {
-    return {std::min(values) - slack, std::max(values) + slack};
+    return {std::min(values) - angle_slack, std::max(values) + angle_slack};
 }
 
 std::optional<Interval> clipped(const Interval& interval, double most) {
@@ -118,10 +118,10 @@ void DirectionGrid::cells_of(int axis, const Slopes& slopes, std::vector<int>& o
     const auto cell_at = [&](double angle, double whole) {
         return static_cast<int>(std::floor(angle / whole * side_));
     };
-    const int i0 = std::max(cell_at(angles.theta.lo - slack, pi), 0);
-    const int i1 = std::min(cell_at(angles.theta.hi + slack, pi), side_ - 1);
-    const int j0 = cell_at(angles.phi.lo - slack, 2 * pi);
-    const int j1 = std::min(cell_at(angles.phi.hi + slack, 2 * pi), j0 + side_ - 1);
+    const int i0 = std::max(cell_at(angles.theta.lo - angle_slack, pi), 0);
+    const int i1 = std::min(cell_at(angles.theta.hi + angle_slack, pi), side_ - 1);
+    const int j0 = cell_at(angles.phi.lo - angle_slack, 2 * pi);
+    const int j1 = std::min(cell_at(angles.phi.hi + angle_slack, 2 * pi), j0 + side_ - 1);
     out.clear();
     for (int i = i0; i <= i1; ++i) {
         for (int j = j0; j <= j1; ++j) {
