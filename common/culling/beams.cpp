@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace shearwater::culling {
 
@@ -87,9 +88,9 @@ void Beams::lay_slabs() {
     }
 }
 
-// Neighbours' directions mostly lie in one cell: those are found together.
+// Of four neighbours at a time: most have the same, and the others' functions differ little.
 BeamCells Beams::cells(const DirectionGrid& directions, base::Workers& workers) const {
-    constexpr std::size_t side = 4;
+    constexpr std::size_t side = 2;
     struct Row {
         std::vector<int> cells;
         std::vector<std::size_t> first_of;
@@ -98,20 +99,18 @@ BeamCells Beams::cells(const DirectionGrid& directions, base::Workers& workers) 
     const auto groups = static_cast<std::int64_t>((v_.size() + side - 1) / side);
     workers.for_each(groups, [&](std::int64_t group) {
         const std::size_t j0 = static_cast<std::size_t>(group) * side, j1 = std::min(j0 + side, v_.size());
-        std::vector<int> all, some;
+        std::vector<int> all;
         for (std::size_t i0 = 0; i0 < u_.size(); i0 += side) {
             const std::size_t i1 = std::min(i0 + side, u_.size());
-            directions.cells_of(face_.axis,
-                                {hull(u_[i0].slope, u_[i1 - 1].slope), hull(v_[j0].slope, v_[j1 - 1].slope)},
-                                all);
-            for (std::size_t j = j0; j < j1; ++j) {
+            if (all.empty() || perspective()) {
+                directions.cells_of(
+                    face_.axis, {hull(u_[i0].slope, u_[i1 - 1].slope), hull(v_[j0].slope, v_[j1 - 1].slope)},
+                    all);
+            }
+            for (Row& row : std::span(rows).subspan(j0, j1 - j0)) {
                 for (std::size_t i = i0; i < i1; ++i) {
-                    if (all.size() > 1 && perspective()) {
-                        directions.cells_of(face_.axis, {u_[i].slope, v_[j].slope}, some);
-                    }
-                    const std::vector<int>& of = all.size() > 1 && perspective() ? some : all;
-                    rows[j].first_of.push_back(rows[j].cells.size());
-                    rows[j].cells.insert(rows[j].cells.end(), of.begin(), of.end());
+                    row.first_of.push_back(row.cells.size());
+                    row.cells.insert(row.cells.end(), all.begin(), all.end());
                 }
             }
         }

@@ -70,7 +70,7 @@ class Beams {
     // are of what is inside. Nor is it known by how much a ray's first or last sample there is less than a
     // step; and none is of a part of a block.
     std::vector<Counted> counted(const std::vector<Side>& sides, int axis, Footprint footprint) const;
-    // Of all beams' lines.
+    // Of all beams' lines, and perhaps some more.
     BeamCells cells(const DirectionGrid& directions, base::Workers& workers) const;
     // World length of a beam's shortest ray from plane to plane of voxels, in the smallest distance of two.
     double shortest_step(const Side& u, const Side& v) const;
