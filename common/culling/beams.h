@@ -2,9 +2,8 @@
 // The beams that a face's image is cut into where it is decided what is visible, and where they go through
 // the blocks.
 //
-//     eye >===  slab 0  |  slab 1  |        a beam: a few pixels a side, with all of their rays
-//              [a][b]   |[a][b][c] |        a slab: the blocks on some planes across the face's principal
-//              axis
+//     eye >===  slab 0  |  slab 1  |     a beam: a few pixels a side, with all of their rays
+//              [a][b]   |[a][b][c] |     a slab: blocks on the same planes across the face's axis
 //
 // A beam has a side along u and one along v (view/factorisation.h), which are laid apart from one another:
 // what it meets of a slab is all blocks that are in what either side meets.
