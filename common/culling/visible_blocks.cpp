@@ -44,9 +44,6 @@ class FacePass {
           beams_(factorisation, face, grid),
           u_met_(beams_.met(beams_.u(), face.u_axis())),
           v_met_(beams_.met(beams_.v(), face.v_axis())) {
-        if (rates.empty()) {
-            return;
-        }
         const DirectionGrid& directions = rates.front().directions;
         cells_ = beams_.cells(directions, workers);
         std::vector<std::uint8_t> needed(static_cast<std::size_t>(directions.cells()));
@@ -181,12 +178,7 @@ class FacePass {
 // it more along a way than by opof.
 bool may_hide(const view::Lattice& lattice, std::span<const BlockRates> rates, double depth) {
     const view::Vec3& spacing = lattice.spacing;
-    double square = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double side = static_cast<double>(lattice.n[static_cast<std::size_t>(axis)]) * spacing[axis];
-        square += side * side;
-    }
-    const double steps = std::sqrt(square) / std::min({spacing.x, spacing.y, spacing.z});
+    const double steps = lattice.diagonal() / std::min({spacing.x, spacing.y, spacing.z});
     return std::ranges::any_of(
         rates, [&](const BlockRates& of) { return static_cast<double>(of.greatest) * steps >= depth; });
 }

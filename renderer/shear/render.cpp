@@ -107,7 +107,6 @@ struct Part {
     std::int64_t first_tile;  // of the face's
     std::atomic<std::int64_t> tiles_left;
     std::once_flag begun;
-    std::atomic<bool> has_pixels = false;
     Window window;  // without pixels as long as no tile has any
     std::mutex mutex;
     std::vector<Rect> clear;  // tiles without, to be filled in if the window has pixels in the end
@@ -161,18 +160,15 @@ class FaceRenderer {
                 const Rect all = plan_.turn(part.rect);
                 part.window.rect = all;
                 part.window.pixels = image::Image<image::RgbaF>(all.width(), all.height(), image::Unfilled());
-                part.has_pixels = true;
             });
             tile->store(part.window);
-        } else if (part.has_pixels) {
-            clear(part.window, plan_.turn(rect));
         } else {
             const std::lock_guard lock(part.mutex);
             part.clear.push_back(plan_.turn(rect));
         }
         idle_.give_back(std::move(tile));
         if (part.tiles_left.fetch_sub(1) == 1) {
-            if (part.has_pixels) {
+            if (!part.window.rect.empty()) {
                 for (const Rect& without : part.clear) {
                     clear(part.window, without);
                 }
