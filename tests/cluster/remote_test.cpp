@@ -130,7 +130,7 @@ TEST_F(RemoteCube, IsDrawnThroughSsh) {
     if (geteuid() == 0) {
         fs::create_directories("/run/sshd");  // where it wants to be when it is root's
     }
-    const int port = 20000 + getpid() % 20000;
+    const int port = 20000 + getpid() % 12000;  // below those that connections beside it are given
     std::ofstream(scratch_.path("sshd_config"))
         << "ListenAddress 127.0.0.1\nPort " << port << "\nHostKey " << scratch_.path("host")
         << "\nAuthorizedKeysFile " << scratch_.path("user.pub")
