@@ -17,6 +17,9 @@ class Failures : public testing::Test {
     void start(int branching, int levels, const volume::Index3& n) {
         path_ = scratch_.path("cube.fits");
         ASSERT_TRUE(samples::write_sample("nbody-web", n, 3, path_));
+        // Loaded before the client is there: while it loads nothing would answer the server's pings.
+        expected_.emplace(path_,
+                          volume::Mapping{.lo = 0, .hi = 2, .stretch = volume::Stretch::linear, .bits = 8});
         options_.cube.path = path_;
         options_.cube.range = {0, 2};
         options_.tree.tree = {branching, levels};
@@ -28,8 +31,6 @@ class Failures : public testing::Test {
         ASSERT_TRUE(client_->wait_ready());
         ASSERT_TRUE(client_->wait_described());
         view_ = support::twenty_views(*client_->lattice())[0];
-        expected_.emplace(path_,
-                          volume::Mapping{.lo = 0, .hi = 2, .stretch = volume::Stretch::linear, .bits = 8});
     }
 
     pid_t pid_of(tree::Place place) const { return tree_->daemon_ids()[static_cast<std::size_t>(place) - 1]; }
@@ -133,7 +134,9 @@ TEST_F(Failures, FifteenNodesKilledOneByOneEndWhole) {
         const pid_t before = tree_->daemon_ids()[i];
         ASSERT_EQ(kill(before, SIGKILL), 0);
         const std::uint64_t revision = client_->ask(view_);
-        ASSERT_TRUE(client_->next(revision)) << "no answer after daemon " << i << " died";
+        ASSERT_TRUE(client_->next(revision))
+            << "no answer after daemon " << i << " died; the client's link is "
+            << (client_->down() ? "down: " + client_->down()->text : "up");
         ASSERT_TRUE(
             restart_until([&] { return tree_->daemon_ids()[i] > 0 && tree_->daemon_ids()[i] != before; }));
     }

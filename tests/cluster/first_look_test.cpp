@@ -49,6 +49,8 @@ class FirstLook : public testing::Test {
     }
     // Of one client that welcomes sketches and one that has never heard of them.
     void expect_sketch_then_cube(const volume::Mapping& mapping) {
+        // Drawn before the clients are there: meanwhile nothing would answer the server's pings.
+        const auto expected = support::Single(path_, mapping).draw(view(true));
         support::TreeClient client(tree_->address(), secret_), older(tree_->address(), secret_);
         ASSERT_TRUE(client.wait_described() && older.wait_described());
         const std::uint64_t waits = older.ask(view(false));
@@ -67,8 +69,6 @@ class FirstLook : public testing::Test {
         EXPECT_FALSE(client.state().ready());
 
         held_->let_load();
-        support::Single single(path_, mapping);
-        const auto expected = single.draw(view(true));
         const auto whole = client.next(again);
         ASSERT_TRUE(whole);
         EXPECT_FALSE(whole->sketch);
