@@ -51,6 +51,9 @@ typename TileVoxels<Code>::Place TileVoxels<Code>::find(const VoxelRegion& regio
 
 template <class Code>
 Ahead TileVoxels<Code>::ahead(const VoxelRegion& region) const {
+    if (region.hi[1] < region.lo[1]) {
+        return {};
+    }
     volume::Index3 at;
     for (std::size_t n = 0; n < 3; ++n) {
         at[static_cast<std::size_t>(axes_[n])] = region.lo[n];
@@ -84,9 +87,10 @@ void TileVoxels<Code>::turn(const VoxelRegion& region, std::span<const VoxelRegi
         whole_.add(part);
     }
     const auto count = [&](std::size_t n) { return whole_.hi[n] - whole_.lo[n] + 1; };
-    // Whole blocks are written: there has to be room for the last of them, along both axes.
+    // Whole blocks are written: there has to be room for the last of them, along both axes. What planes have
+    // at one place is written together: an odd number of blocks keeps it apart in the caches.
     constexpr std::int64_t block = 16;
-    row_ = (count(0) + 2 * block - 1) / block * block;
+    row_ = ((count(0) + 2 * block - 1) / block | 1) * block;
     plane_ = row_ * (count(1) + 1);
     copy_.resize(static_cast<std::size_t>(plane_ * (count(2) + block)) + voxel_padding);
     for (std::int64_t v = whole_.lo[1]; v <= whole_.hi[1]; ++v) {
@@ -115,6 +119,11 @@ VoxelRegion TileVoxels<Code>::wanted_of_plane(std::int64_t v) const {
     }
     // Parts that follow one another meet: no plane is between them.
     VoxelRegion plane = wanted.value_or(whole_);
+    // Of lines of the cache most are as soon turned whole.
+    if (2 * (plane.hi[2] - plane.lo[2]) > whole_.hi[2] - whole_.lo[2]) {
+        plane.lo[2] = whole_.lo[2];
+        plane.hi[2] = whole_.hi[2];
+    }
     plane.lo[1] = plane.hi[1] = v;
     return plane;
 }

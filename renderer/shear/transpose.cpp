@@ -1,6 +1,7 @@
 #include "renderer/shear/transpose.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "renderer/shear/transpose.cpp"
@@ -58,27 +59,56 @@ HWY_INLINE void turn_block(const std::uint8_t* from, std::ptrdiff_t stride, int 
 }
 #endif
 
-// 64 rows at once, a block of 16 in each quarter of a vector.
 #if HWY_TARGET != HWY_SCALAR && HWY_CAP_GE512
-constexpr int tall = 64;
-HWY_INLINE void turn_tall_block(const std::uint8_t* from, std::ptrdiff_t stride, std::uint8_t* to,
-                                std::ptrdiff_t to_stride) {
+constexpr int line = 64;
+
+// So many blocks of 16 rows of a line: what is adjacent in a column of all of them is written at once.
+template <int blocks>
+HWY_INLINE void turn_lines(const std::uint8_t* from, std::ptrdiff_t stride, std::uint8_t* to,
+                           std::ptrdiff_t to_stride) {
     const hn::Full512<std::uint8_t> d;
     using V = hn::Vec<decltype(d)>;
-    V a[side];
-    for (int i = 0; i < side; ++i) {
-        const auto quarter = [&](int n) HWY_ATTR {
-            const std::uint8_t* const row = from + (i + n * side) * stride;
-            return _mm_loadu_si128(reinterpret_cast<const __m128i*>(row));
-        };
-        __m512i rows = _mm512_castsi128_si512(quarter(0));
-        rows = _mm512_inserti32x4(rows, quarter(1), 1);
-        rows = _mm512_inserti32x4(rows, quarter(2), 2);
-        a[i] = V{_mm512_inserti32x4(rows, quarter(3), 3)};
+    V a[blocks][side];
+    for (int n = 0; n < blocks; ++n) {
+        for (int i = 0; i < side; ++i) {
+            a[n][i] = hn::LoadU(d, from + (n * side + i) * stride);
+        }
+        turn_vectors(d, a[n]);
     }
-    turn_vectors(d, a);
+    // Of column `quarter` * 16 + i a quarter of a[n][i] has what is in block n.
     for (int i = 0; i < side; ++i) {
-        hn::StoreU(a[i], d, to + i * to_stride);
+        const auto at = [&](int quarter) HWY_ATTR { return to + (quarter * side + i) * to_stride; };
+        if constexpr (blocks == 1) {
+            const auto put = [&](int quarter, __m128i column) HWY_ATTR {
+                _mm_storeu_si128(reinterpret_cast<__m128i*>(at(quarter)), column);
+            };
+            put(0, _mm512_castsi512_si128(a[0][i].raw));
+            put(1, _mm512_extracti32x4_epi32(a[0][i].raw, 1));
+            put(2, _mm512_extracti32x4_epi32(a[0][i].raw, 2));
+            put(3, _mm512_extracti32x4_epi32(a[0][i].raw, 3));
+        } else if constexpr (blocks == 2) {
+            const auto put = [&](int quarter, __m512i two) HWY_ATTR {
+                const auto half = [&](int n, __m256i column) HWY_ATTR {
+                    _mm256_storeu_si256(reinterpret_cast<__m256i*>(at(quarter + n)), column);
+                };
+                half(0, _mm512_castsi512_si256(two));
+                half(1, _mm512_extracti64x4_epi64(two, 1));
+            };
+            const __m512i first = _mm512_shuffle_i32x4(a[0][i].raw, a[1][i].raw, 0x44);
+            const __m512i last = _mm512_shuffle_i32x4(a[0][i].raw, a[1][i].raw, 0xee);
+            put(0, _mm512_shuffle_i32x4(first, first, 0xd8));
+            put(2, _mm512_shuffle_i32x4(last, last, 0xd8));
+        } else {
+            static_assert(blocks == 4);
+            const auto put = [&](int quarter, __m512i above, __m512i below) HWY_ATTR {
+                _mm512_storeu_si512(at(quarter), _mm512_shuffle_i32x4(above, below, 0x88));
+                _mm512_storeu_si512(at(quarter + 1), _mm512_shuffle_i32x4(above, below, 0xdd));
+            };
+            put(0, _mm512_shuffle_i32x4(a[0][i].raw, a[1][i].raw, 0x44),
+                _mm512_shuffle_i32x4(a[2][i].raw, a[3][i].raw, 0x44));
+            put(2, _mm512_shuffle_i32x4(a[0][i].raw, a[1][i].raw, 0xee),
+                _mm512_shuffle_i32x4(a[2][i].raw, a[3][i].raw, 0xee));
+        }
     }
 }
 #endif
@@ -87,41 +117,55 @@ void turn_8(const Matrix<std::uint8_t>& from, std::uint8_t* to, std::ptrdiff_t c
             const Ahead& ahead) {
     // A few columns over are moved one by one, as are rows.
     constexpr int few = 4;
-    const int block_columns = (from.columns + side - 1 - few) / side * side;
-    const int block_rows = (from.rows + side - 1 - few) / side * side;
-    const auto move = [&](int column, int row) HWY_ATTR {
-        to[column * column_stride + row] = from.first[row * from.row_stride + column];
+    const auto whole_blocks = [](int count) { return (count + side - 1 - few) / side * side; };
+    const int block_columns = whole_blocks(from.columns);
+    const int block_rows = whole_blocks(from.rows);
+    const auto first = [&](int column, int row) HWY_ATTR {
+        return from.first + row * from.row_stride + column;
     };
-    int row = 0;
-#if HWY_TARGET != HWY_SCALAR && HWY_CAP_GE512
-    // The last of several blocks lies partly over the one before.
-    Fetching fetching(ahead, (from.rows + tall - 1) / tall * (block_columns / side));
-    for (; from.rows >= tall && row < from.rows; row += tall) {
-        const int first = std::min(row, from.rows - tall);
-        for (int column = 0; column < block_columns; column += side) {
-            fetching.step<Into::second>();
-            turn_tall_block(from.first + first * from.row_stride + column, from.row_stride,
-                            to + column * column_stride + first, column_stride);
-        }
-    }
-#else
+    const auto turned = [&](int column, int row) HWY_ATTR { return to + column * column_stride + row; };
     Fetching fetching(ahead, block_rows / side * (block_columns / side));
-#endif
-    for (; row < block_rows; row += side) {
-        for (int column = 0; column < block_columns; column += side) {
+    const auto fetch = [&](int blocks) HWY_ATTR {
+        for (int n = 0; n < blocks; ++n) {
             fetching.step<Into::second>();
-            turn_block(from.first + row * from.row_stride + column, from.row_stride,
-                       std::min(side, from.rows - row), to + column * column_stride + row, column_stride);
+        }
+    };
+    int column = 0;
+#if HWY_TARGET != HWY_SCALAR && HWY_CAP_GE512
+    for (; column + line <= block_columns; column += line) {
+        for (int row = 0; row < block_rows;) {
+            const int left = (block_rows - row) / side;
+            const int blocks = left >= 4 ? 4 : left >= 2 ? 2 : 1;
+            fetch(blocks * (line / side));
+            const auto turn_some = [&](auto count) HWY_ATTR {
+                turn_lines<count>(first(column, row), from.row_stride, turned(column, row), column_stride);
+            };
+            if (blocks == 4) {
+                turn_some(std::integral_constant<int, 4>());
+            } else if (blocks == 2) {
+                turn_some(std::integral_constant<int, 2>());
+            } else {
+                turn_some(std::integral_constant<int, 1>());
+            }
+            row += blocks * side;
         }
     }
-    for (; row < from.rows; ++row) {
-        for (int column = 0; column < from.columns; ++column) {
-            move(column, row);
+#endif
+    for (; column < block_columns; column += side) {
+        for (int row = 0; row < block_rows; row += side) {
+            fetch(1);
+            turn_block(first(column, row), from.row_stride, std::min(side, from.rows - row),
+                       turned(column, row), column_stride);
         }
     }
-    for (int column = block_columns; column < from.columns; ++column) {
-        for (int n = 0; n < from.rows; ++n) {
-            move(column, n);
+    for (int row = block_rows; row < from.rows; ++row) {
+        for (int n = 0; n < block_columns; ++n) {
+            *turned(n, row) = *first(n, row);
+        }
+    }
+    for (; column < from.columns; ++column) {
+        for (int row = 0; row < from.rows; ++row) {
+            *turned(column, row) = *first(column, row);
         }
     }
 }
