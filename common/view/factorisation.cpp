@@ -40,15 +40,20 @@ bool valid(const Face& face) {
 
 }  // namespace
 
-Rect intersection(const Rect& a, const Rect& b) {
-    return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
-}
-
 Rect bounding(const Rect& a, const Rect& b) {
     if (a.empty() || b.empty()) {
         return a.empty() ? b : a;
     }
     return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
+std::array<Rect, 4> left_over(const Rect& whole, const Rect& part) {
+    const Rect inner = intersection(whole, part);
+    if (inner.empty()) {
+        return {whole};
+    }
+    return {Rect{whole.x0, whole.y0, whole.x1, inner.y0}, Rect{whole.x0, inner.y1, whole.x1, whole.y1},
+            Rect{whole.x0, inner.y0, inner.x0, inner.y1}, Rect{inner.x1, inner.y0, whole.x1, inner.y1}};
 }
 
 Sampling sampling(Quality quality, bool level_of_detail, Classify classify) {

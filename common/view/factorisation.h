@@ -13,6 +13,7 @@
 //   parallel      u = (origin_u + i * pitch_u) + slope_u * w             positions on slice 0
 // and the same for v with j. Both are  u = offset(w) + scale(w) * i.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -33,8 +34,12 @@ struct Rect {
     std::int64_t area() const { return empty() ? 0 : static_cast<std::int64_t>(width()) * height(); }
     bool empty() const { return x1 <= x0 || y1 <= y0; }
 };
-Rect intersection(const Rect& a, const Rect& b);
+inline Rect intersection(const Rect& a, const Rect& b) {
+    return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
 Rect bounding(const Rect& a, const Rect& b);  // an empty one counts for nothing
+// What of a rectangle another leaves over: up to four, some of them empty.
+std::array<Rect, 4> left_over(const Rect& whole, const Rect& part);
 
 enum class Quality { draft, normal, high };
 // Where along a ray the transfer function is applied.

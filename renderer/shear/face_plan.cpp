@@ -1,6 +1,7 @@
 #include "renderer/shear/face_plan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -45,27 +46,7 @@ SliceRange FacePlan::owned_slices(const Box& box) const {
     return slices;
 }
 
-// To where a ray is inside the cube along an in-plane axis: where  at + slope * (w - start)  is. In
-// perspective its place is how fast it moves sideways; in parallel all do alike.
-FacePlan::Stretch FacePlan::clip(const Stretch& stretch, int axis, double place) const {
-    const view::Vec3& eye = factorisation_.eye;
-    const view::Vec3& direction = factorisation_.direction;
-    const double start = perspective() ? eye[face_.axis] : 0;
-    const double at = perspective() ? eye[axis] : place;
-    const double slope = perspective() ? place : direction[axis] / direction[face_.axis];
-    if (slope == 0) {
-        return stretch;
-    }
-    const double planes_per_voxel = 1 / slope;
-    const auto first = static_cast<double>(shown_.lo[static_cast<std::size_t>(axis)]);
-    const auto last = static_cast<double>(shown_.hi[static_cast<std::size_t>(axis)]);
-    const double to_first = start + (first - at) * planes_per_voxel;
-    const double to_last = start + (last - at) * planes_per_voxel;
-    return {std::max(stretch.from, std::min(to_first, to_last)),
-            std::min(stretch.to, std::max(to_first, to_last))};
-}
-
-FacePlan::Stretch FacePlan::of_row(int j) const {
+Stretch FacePlan::of_row(int j) const {
     const auto a = static_cast<std::size_t>(face_.axis);
     Stretch row{static_cast<double>(shown_.lo[a]), static_cast<double>(shown_.hi[a])};
     if (perspective()) {
@@ -73,11 +54,7 @@ FacePlan::Stretch FacePlan::of_row(int j) const {
         (face_.sign > 0 ? row.from : row.to) =
             face_.sign > 0 ? std::max(row.from, eye) : std::min(row.to, eye);
     }
-    return clip(row, slow_axis(), place_of(slow_axis(), j));
-}
-
-FacePlan::Stretch FacePlan::of_ray(int i, int j) const {
-    return clip(rows_[static_cast<std::size_t>(j - window_.y0)], fast_axis(), place_of(fast_axis(), i));
+    return slow_clip_(row, place_of(slow_axis(), j));
 }
 
 FacePlan::FacePlan(const BrickVolume& volume, const Factorisation& factorisation, int face_index)
@@ -87,7 +64,9 @@ FacePlan::FacePlan(const BrickVolume& volume, const Factorisation& factorisation
       shown_(factorisation.shown()),
       last_voxel_{volume.cube()[0] - 1, volume.cube()[1] - 1, volume.cube()[2] - 1},
       window_(turn(view::window_of(factorisation, face_, shown_of(volume.box())))),
-      slices_(owned_slices(volume.box())) {
+      slices_(owned_slices(volume.box())),
+      fast_clip_(factorisation, face_, fast_axis()),
+      slow_clip_(factorisation, face_, slow_axis()) {
     if (slices_.empty() || window_.empty()) {
         window_ = {};
         return;
@@ -175,9 +154,11 @@ void FacePlan::steps(int i, int j, std::span<float> out) const {
     const double rest = square(spacing[face_.axis]) + square(place_of(slow_axis(), j) * spacing[slow_axis()]);
     const double pitch = factorisation_.slice_pitch();
     const auto [origin, each] = line_of(fast_axis());
-    for (std::size_t n = 0; n < out.size(); ++n) {
-        const double slope = origin + each * (i + static_cast<int>(n));
-        out[n] = static_cast<float>(pitch * std::sqrt(rest + square(slope * fast)));
+    const int count = static_cast<int>(out.size());
+    float* const to = out.data();
+    for (int n = 0; n < count; ++n) {
+        const double slope = origin + each * (i + n);
+        to[n] = static_cast<float>(pitch * std::sqrt(rest + square(slope * fast)));
     }
 }
 
@@ -196,39 +177,52 @@ const Rect& FacePlan::inside(std::int64_t k) const {
     return inside_[slot(k) + 1];
 }
 
-void FacePlan::shares(std::int64_t k, int i, int j, std::span<float> out) const {
-    const double place = factorisation_.slice_place(k);
-    const double half = factorisation_.slice_pitch() / 2;
-    const double steps_per_voxel = 1 / factorisation_.slice_pitch();  // a power of two
-    const auto in_row = [j](const Rect& rect) {
-        return rect.y0 <= j && j < rect.y1 ? PixelRange{rect.x0, rect.x1} : PixelRange{};
-    };
-    const PixelRange below = in_row(inside(k - 1));
-    const PixelRange above = in_row(inside(k + 1));
-    const Stretch& row = rows_[static_cast<std::size_t>(j - window_.y0)];
-    // On the cube's first plane a ray is at its end, as all are.
-    const bool enters_before = row.from < place;
-    const bool leaves_behind = row.to > place;
-    for (std::size_t n = 0; n < out.size(); ++n) {
-        const int pixel = i + static_cast<int>(n);
-        const bool is_below = below.first <= pixel && pixel < below.last;
-        const bool is_above = above.first <= pixel && pixel < above.last;
-        const bool ends = (!is_below && enters_before) || (!is_above && leaves_behind);
-        const Stretch ray = ends ? of_ray(pixel, j) : Stretch{place, place};
-        const double from = is_below ? place - half : ray.from;
-        const double to = is_above ? place + half : ray.to;
-        out[n] = static_cast<float>(std::clamp((to - from) * steps_per_voxel, 0.0, 2.0));
+// `steps(ray, i, j)`: how many slice distances a length of what a ray has of the cube stands for.
+template <class Steps>
+void FacePlan::scale(const Rect& pixels, const RayLengths& lengths, const Steps& steps) const {
+    constexpr int most = 128;  // columns at a time
+    std::array<Stretch, most> columns;
+    for (int first = pixels.x0; first < pixels.x1; first += most) {
+        const int end = std::min(first + most, pixels.x1);
+        for (int i = first; i < end; ++i) {
+            columns[static_cast<std::size_t>(i - first)] = fast_clip_(everywhere, place_of(fast_axis(), i));
+        }
+        for (int j = pixels.y0; j < pixels.y1; ++j) {
+            const Stretch row = rows_[static_cast<std::size_t>(j - window_.y0)];
+            float* const out = lengths.at(0, j);
+            for (int i = first; i < end; ++i) {
+                const Stretch& column = columns[static_cast<std::size_t>(i - first)];
+                const Stretch ray{std::max(row.from, column.from), std::min(row.to, column.to)};
+                out[i] *= static_cast<float>(steps(ray, i, j));
+            }
+        }
     }
 }
 
-// `sign`: towards lower planes or higher ones.
-void FacePlan::rims(std::int64_t k, int sign, int i, int j, std::span<float> out) const {
+void FacePlan::apply_shares(std::int64_t k, const Rect& pixels, const RayLengths& lengths) const {
     const double place = factorisation_.slice_place(k);
-    for (std::size_t n = 0; n < out.size(); ++n) {
-        const Stretch ray = of_ray(i + static_cast<int>(n), j);
+    const double half = factorisation_.slice_pitch() / 2;
+    const double steps_per_voxel = 1 / factorisation_.slice_pitch();  // a power of two
+    const Rect below = inside(k - 1), above = inside(k + 1);
+    const auto contains = [](const Rect& rect, int i, int j) {
+        return rect.x0 <= i && i < rect.x1 && rect.y0 <= j && j < rect.y1;
+    };
+    scale(pixels, lengths, [&](const Stretch& ray, int i, int j) {
+        // On the cube's first plane a ray is at its end, as all are.
+        const double from = contains(below, i, j) ? place - half : std::min(place, ray.from);
+        const double to = contains(above, i, j) ? place + half : std::max(place, ray.to);
+        return std::min((to - from) * steps_per_voxel, 2.0);
+    });
+}
+
+// `sign`: towards lower planes or higher ones.
+void FacePlan::apply_rims(std::int64_t k, int sign, const Rect& pixels, const RayLengths& lengths) const {
+    const double place = factorisation_.slice_place(k);
+    const double steps_per_voxel = 1 / factorisation_.slice_pitch();
+    scale(pixels, lengths, [&](const Stretch& ray, int, int) {
         const double length = sign > 0 ? ray.to - place : place - ray.from;
-        out[n] = static_cast<float>(std::clamp(length / factorisation_.slice_pitch(), 0.0, 1.0));
-    }
+        return std::clamp(length * steps_per_voxel, 0.0, 1.0);
+    });
 }
 
 }  // namespace shearwater::shear

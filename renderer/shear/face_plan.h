@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/view/factorisation.h"
+#include "renderer/shear/axis_clip.h"
 #include "renderer/shear/brick_volume.h"
 
 namespace shearwater::shear {
@@ -22,6 +23,15 @@ struct SlicePlan {
     view::SliceMap map;  // where nodes lie under pixels, fast as u and slow as v
     view::Rect owned;    // the pixels whose samples the sub-volume owns
     view::Rect whole;    // those whose samples stand for a whole step
+};
+
+// Lengths on the rays of a face's pixels: that of pixel (x, y) lies at at(x, y).
+struct RayLengths {
+    float* first;           // of pixel (x0, y0)
+    std::ptrdiff_t stride;  // from row to row
+    int x0, y0;
+
+    float* at(int x, int y) const { return first + (y - y0) * stride + (x - x0); }
 };
 
 class FacePlan {
@@ -58,20 +68,22 @@ class FacePlan {
     // "The cube" is what is shown of it (Factorisation::crop).
     // The pixels whose rays meet slice k inside the cube; none where k is behind the eye.
     const view::Rect& inside(std::int64_t k) const;
-    // How many slice distances the samples of slice k stand for on the rays of pixels of row j from i on, all
-    // inside(k). A sample stands for the half distances to both sides; the first and the last on a ray
-    // reach to where the ray enters and leaves the cube, so that together they cover it exactly.
-    void shares(std::int64_t k, int i, int j, std::span<float> out) const;
+    // Multiplies lengths of some pixels, all inside(k), by how many slice distances the samples of slice k
+    // stand for on their rays. A sample stands for the half distances to both sides; the first and the last
+    // on a ray reach to where the ray enters and leaves the cube, so that together they cover it exactly.
+    void apply_shares(std::int64_t k, const view::Rect& pixels, const RayLengths& lengths) const;
 
     // Of segments from slice to slice (segments.h). The slice behind k; its pixels are inside() too.
     std::int64_t behind(std::int64_t k) const { return k + face_.sign; }
     std::int64_t before(std::int64_t k) const { return k - face_.sign; }
-    // How many slice distances the rays of pixels of row j from i on have in the cube between slice k, which
-    // they all meet inside it, and the one before or behind it, which they do not.
-    void entries(std::int64_t k, int i, int j, std::span<float> out) const {
-        rims(k, -face_.sign, i, j, out);
+    // Multiplies lengths by how many slice distances the rays of some pixels have in the cube between slice
+    // k, which they all meet inside it, and the one before or behind it, which they do not.
+    void apply_entries(std::int64_t k, const view::Rect& pixels, const RayLengths& lengths) const {
+        apply_rims(k, -face_.sign, pixels, lengths);
     }
-    void exits(std::int64_t k, int i, int j, std::span<float> out) const { rims(k, face_.sign, i, j, out); }
+    void apply_exits(std::int64_t k, const view::Rect& pixels, const RayLengths& lengths) const {
+        apply_rims(k, face_.sign, pixels, lengths);
+    }
     // The pixels whose rays move sideways by no more than a voxel from plane to plane.
     const view::Rect& gentle() const { return gentle_; }
 
@@ -84,14 +96,10 @@ class FacePlan {
     view::SliceRange owned_slices(const volume::Box& box) const;
     void lay_slice(const volume::Box& box, std::int64_t k);
     view::Rect gentle_rays() const;
-    // What a ray has of the cube, along the principal axis, and what all rays of a row are within.
-    struct Stretch {
-        double from, to;
-    };
-    Stretch clip(const Stretch& stretch, int axis, double place) const;
     Stretch of_row(int j) const;
-    Stretch of_ray(int i, int j) const;
-    void rims(std::int64_t k, int sign, int i, int j, std::span<float> out) const;
+    template <class Steps>
+    void scale(const view::Rect& pixels, const RayLengths& lengths, const Steps& steps) const;
+    void apply_rims(std::int64_t k, int sign, const view::Rect& pixels, const RayLengths& lengths) const;
     std::size_t slot(std::int64_t k) const { return static_cast<std::size_t>(k - slices_.first); }
     bool perspective() const { return factorisation_.projection == view::Projection::perspective; }
 
@@ -101,8 +109,9 @@ class FacePlan {
     volume::Box shown_;          // of the cube
     volume::Index3 last_voxel_;  // of the cube
     view::Rect window_, gentle_;
-    std::vector<Stretch> rows_;  // of the window
+    std::vector<Stretch> rows_;  // what all rays of a row of the window are within, inside the cube
     view::SliceRange slices_;    // that the sub-volume owns, in front of the eye
+    AxisClip fast_clip_, slow_clip_;
     std::vector<SlicePlan> plans_;
     std::vector<view::Rect> inside_;  // of the slices and of one more at either end
 };

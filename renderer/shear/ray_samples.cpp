@@ -89,8 +89,8 @@ std::vector<view::RaySample> sample(const BrickVolume& volume, const OpacityTabl
         if (!(code > 0)) {
             continue;
         }
-        float share = 0;
-        plan.shares(k, 0, 0, {&share, 1});
+        float share = 1;
+        plan.apply_shares(k, {0, 0, 1, 1}, {.first = &share, .stride = 1, .x0 = 0, .y0 = 0});
         const double depth = extinction_of(code, table) * static_cast<double>(share) * depth_of_step;
         if (static_cast<float>(depth) > 0) {
             samples.push_back({k, static_cast<float>(depth)});

@@ -35,7 +35,8 @@ class Tile {
     // Renders the pixels of a rectangle of at most width x height, from nothing. False if they have met
     // nothing.
     bool render(const view::Rect& rect);
-    // Copies what was rendered, something, to where it lies in the face's window; rays that are done as opaque.
+    // Copies what was rendered, something, to where it lies in the face's window; rays that are done as
+    // opaque.
     void store(image::Window& window) const;
     std::uint64_t samples() const { return samples_; }  // of all rectangles
 
@@ -78,6 +79,13 @@ class Tile {
     VoxelRegion behind(const VoxelRegion& region) const;
     void note_met(const VoxelRegion& region);
     const float* lengths_on(std::int64_t k, const view::Rect& pixels, Plane& spare);
+    void copy_steps(const view::Rect& pixels, Plane& to) const;
+    view::Rect in_face(const view::Rect& pixels) const {
+        return {pixels.x0 + rect_.x0, pixels.y0 + rect_.y0, pixels.x1 + rect_.x0, pixels.y1 + rect_.y0};
+    }
+    RayLengths lengths_in(Plane& plane) const {
+        return {.first = plane.data(), .stride = stride, .x0 = rect_.x0, .y0 = rect_.y0};
+    }
     void narrow_live();
     Rays rays();
     std::size_t slot(int i, int j) const {

@@ -85,28 +85,27 @@ Rays Tile<Code>::rays() {
 // Most samples stand for a whole step. Those that do not are at the rim of what the cube covers on a slice.
 template <class Code>
 const float* Tile<Code>::lengths_on(std::int64_t k, const Rect& pixels, Plane& spare) {
-    const Rect& inner = plan_.slice_plan(k).whole;
-    const Rect plain = intersection(
+    const Rect inner = plan_.slice_plan(k).whole;
+    const std::array<Rect, 4> rims = left_over(
         pixels, {inner.x0 - rect_.x0, inner.y0 - rect_.y0, inner.x1 - rect_.x0, inner.y1 - rect_.y0});
-    if (plain == pixels) {
+    if (std::ranges::all_of(rims, &Rect::empty)) {
         return planes_->steps.data();
     }
-    for (int j = pixels.y0; j < pixels.y1; ++j) {
-        const auto first = static_cast<std::size_t>(j * stride);
-        const float* const steps = &planes_->steps[first];
-        float* const lengths = &spare[first];
-        const bool plain_row = plain.y0 <= j && j < plain.y1 && plain.x0 < plain.x1;
-        const int plain0 = plain_row ? plain.x0 : pixels.x1;
-        const int plain1 = plain_row ? plain.x1 : pixels.x1;
-        std::copy(steps + plain0, steps + plain1, lengths + plain0);
-        for (const auto& [i0, i1] : {std::pair{pixels.x0, plain0}, {plain1, pixels.x1}}) {
-            if (i0 < i1) {
-                plan_.shares(k, i0 + rect_.x0, j + rect_.y0, {lengths + i0, lengths + i1});
-                std::transform(lengths + i0, lengths + i1, steps + i0, lengths + i0, std::multiplies<>());
-            }
+    copy_steps(pixels, spare);
+    for (const Rect& rim : rims) {
+        if (!rim.empty()) {
+            plan_.apply_shares(k, in_face(rim), lengths_in(spare));
         }
     }
     return spare.data();
+}
+
+template <class Code>
+void Tile<Code>::copy_steps(const Rect& pixels, Plane& to) const {
+    for (int j = pixels.y0; j < pixels.y1; ++j) {
+        const float* const row = &planes_->steps[static_cast<std::size_t>(j * stride)];
+        std::copy(row + pixels.x0, row + pixels.x1, &to[static_cast<std::size_t>(j * stride + pixels.x0)]);
+    }
 }
 
 template <class Code>
@@ -150,11 +149,13 @@ template void Tile<std::uint8_t>::begin_rays();
 template void Tile<std::uint8_t>::narrow_live();
 template Rays Tile<std::uint8_t>::rays();
 template const float* Tile<std::uint8_t>::lengths_on(std::int64_t, const Rect&, Plane&);
+template void Tile<std::uint8_t>::copy_steps(const Rect&, Plane&) const;
 template void Tile<std::uint8_t>::store(image::Window&) const;
 template void Tile<std::uint16_t>::begin_rays();
 template void Tile<std::uint16_t>::narrow_live();
 template Rays Tile<std::uint16_t>::rays();
 template const float* Tile<std::uint16_t>::lengths_on(std::int64_t, const Rect&, Plane&);
+template void Tile<std::uint16_t>::copy_steps(const Rect&, Plane&) const;
 template void Tile<std::uint16_t>::store(image::Window&) const;
 
 }  // namespace shearwater::shear

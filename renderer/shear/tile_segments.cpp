@@ -12,20 +12,6 @@ namespace shearwater::shear {
 using view::Rect;
 using view::SliceMap;
 
-namespace {
-
-// What of a rectangle another leaves over: up to four, some of them empty.
-std::array<Rect, 4> left_over(const Rect& whole, const Rect& part) {
-    const Rect inner = intersection(whole, part);
-    if (inner.empty()) {
-        return {whole};
-    }
-    return {Rect{whole.x0, whole.y0, whole.x1, inner.y0}, Rect{whole.x0, inner.y1, whole.x1, whole.y1},
-            Rect{whole.x0, inner.y0, inner.x0, inner.y1}, Rect{inner.x1, inner.y0, whole.x1, inner.y1}};
-}
-
-}  // namespace
-
 // Collects the segments of slices that are added front to back, until there is no room for another's.
 template <class Code>
 class Tile<Code>::Segments {
@@ -44,22 +30,23 @@ class Tile<Code>::Segments {
                      tile_.lengths_on(k, part, planes_.lengths[static_cast<std::size_t>(front)])});
             }
         }
-        const auto rims = [&](const Rect& part, Plane& lengths, const auto& shares) {
+        // Every ray comes in before one slice, and goes out behind one: a plane has room for all of a tile's.
+        const auto rims = [&](const Rect& part, Plane& lengths, auto apply) {
             if (!part.empty()) {
-                lay(lengths, part, shares);
+                tile_.copy_steps(part, lengths);
+                (plan_.*apply)(k, tile_.in_face(part), tile_.lengths_in(lengths));
                 add({front, front, part, lengths.data()});
             }
         };
         for (const Rect& part : left_over(gentle, here(plan_.inside(plan_.before(k))))) {
-            rims(part, planes_.entries,
-                 [&](int i, int j, std::span<float> out) { plan_.entries(k, i, j, out); });
+            rims(part, planes_.entries, &FacePlan::apply_entries);
         }
         const Rect whole = intersection(gentle, here(plan_.inside(plan_.behind(k))));
         if (!whole.empty()) {
             add({front, slice_of(plan_.behind(k), whole), whole, planes_.steps.data()});
         }
         for (const Rect& part : left_over(gentle, whole)) {
-            rims(part, planes_.exits, [&](int i, int j, std::span<float> out) { plan_.exits(k, i, j, out); });
+            rims(part, planes_.exits, &FacePlan::apply_exits);
         }
     }
 
@@ -96,17 +83,6 @@ class Tile<Code>::Segments {
                                      .lengths = nullptr};
         return count++;
     }
-    // Every ray comes in before one slice, and goes out behind one: a plane has room for all of a tile's.
-    template <class Rims>
-    void lay(Plane& lengths, const Rect& pixels, const Rims& rims) {
-        for (int j = pixels.y0; j < pixels.y1; ++j) {
-            const auto first = static_cast<std::size_t>(j * stride + pixels.x0);
-            const std::span<float> row(&lengths[first], static_cast<std::size_t>(pixels.width()));
-            rims(pixels.x0 + tile_.rect_.x0, j + tile_.rect_.y0, row);
-            std::transform(row.begin(), row.end(), &planes_.steps[first], row.begin(), std::multiplies<>());
-        }
-    }
-
     Tile& tile_;
     const FacePlan& plan_;
     Planes& planes_;
