@@ -37,7 +37,7 @@ class Tile {
     bool render(const view::Rect& rect);
     // Copies what was rendered, something, to where it lies in the face's window; rays that are done as
     // opaque.
-    void store(image::Window& window) const;
+    void store(image::Window& window);
     std::uint64_t samples() const { return samples_; }  // of all rectangles
 
   private:

@@ -4,6 +4,7 @@
 #include <functional>
 #include <utility>
 
+#include "renderer/shear/ray_pixels.h"
 #include "renderer/shear/tile.h"
 
 namespace shearwater::shear {
@@ -109,38 +110,35 @@ void Tile<Code>::copy_steps(const Rect& pixels, Plane& to) const {
 }
 
 template <class Code>
-void Tile<Code>::store(image::Window& window) const {
+void Tile<Code>::store(image::Window& window) {
     const OpacityTable& table = classification_.table;
-    const bool one_hue = table.one_hue();
-    const float done = plan_.opaque();
-    const auto hue_r = static_cast<float>(table.hue().r);
-    const auto hue_g = static_cast<float>(table.hue().g);
-    const auto hue_b = static_cast<float>(table.hue().b);
+    const view::Rgb hue = table.hue();
+    const view::Rgb* const one_hue = table.one_hue() ? &hue : nullptr;
     const Rect at = plan_.turn(rect_);
-    const int x0 = at.x0 - window.rect.x0;
-    const std::size_t stride_out = plan_.turned() ? static_cast<std::size_t>(window.rect.width()) : 1;
-    for (int j = 0; j < rect_.height(); ++j) {
-        const auto first = static_cast<std::size_t>(j * stride);
-        image::RgbaF* const out = plan_.turned() ? &window.pixels.at(x0 + j, at.y0 - window.rect.y0)
-                                                 : &window.pixels.at(x0, at.y0 - window.rect.y0 + j);
-        const auto count = static_cast<std::size_t>(rect_.width());
-        const auto put = [&](const auto& at_slot) {
-            for (std::size_t i = 0; i < count; ++i) {
-                out[i * stride_out] = at_slot(first + i);
+    const int x0 = at.x0 - window.rect.x0, y0 = at.y0 - window.rect.y0;
+    const auto across = static_cast<std::size_t>(rect_.width());
+    const Rays gathered = rays();
+    if (!plan_.turned()) {
+        for (int j = 0; j < rect_.height(); ++j) {
+            pixels_of(gathered, j * stride, one_hue,
+                      window.pixels.row(y0 + j).subspan(static_cast<std::size_t>(x0), across));
+        }
+        return;
+    }
+    // As many rows at a time as lie side by side in a line of the cache.
+    constexpr int beside = cache_line / static_cast<int>(sizeof(image::RgbaF));
+    std::array<std::array<image::RgbaF, static_cast<std::size_t>(width)>, beside> rows;
+    for (int first = 0; first < rect_.height(); first += beside) {
+        const int count = std::min(beside, rect_.height() - first);
+        for (int n = 0; n < count; ++n) {
+            pixels_of(gathered, (first + n) * stride, one_hue,
+                      std::span(rows[static_cast<std::size_t>(n)]).first(across));
+        }
+        for (std::size_t i = 0; i < across; ++i) {
+            image::RgbaF* const out = &window.pixels.at(x0 + first, y0 + static_cast<int>(i));
+            for (int n = 0; n < count; ++n) {
+                out[n] = rows[static_cast<std::size_t>(n)][i];
             }
-        };
-        const Planes& p = *planes_;
-        // What a ray that is done would have gathered yet is taken to be as what it has: else it would be
-        // darker than its neighbours, and another sub-volume's light would shine through.
-        const auto pixel = [&](std::size_t n, float r, float g, float b) {
-            const bool is_done = p.a[n] >= done;
-            const float whole = is_done ? 1 / p.a[n] : 1;
-            return image::RgbaF{r * whole, g * whole, b * whole, is_done ? 1 : p.a[n]};
-        };
-        if (one_hue) {
-            put([&](std::size_t n) { return pixel(n, p.r[n] * hue_r, p.r[n] * hue_g, p.r[n] * hue_b); });
-        } else {
-            put([&](std::size_t n) { return pixel(n, p.r[n], p.g[n], p.b[n]); });
         }
     }
 }
@@ -150,12 +148,12 @@ template void Tile<std::uint8_t>::narrow_live();
 template Rays Tile<std::uint8_t>::rays();
 template const float* Tile<std::uint8_t>::lengths_on(std::int64_t, const Rect&, Plane&);
 template void Tile<std::uint8_t>::copy_steps(const Rect&, Plane&) const;
-template void Tile<std::uint8_t>::store(image::Window&) const;
+template void Tile<std::uint8_t>::store(image::Window&);
 template void Tile<std::uint16_t>::begin_rays();
 template void Tile<std::uint16_t>::narrow_live();
 template Rays Tile<std::uint16_t>::rays();
 template const float* Tile<std::uint16_t>::lengths_on(std::int64_t, const Rect&, Plane&);
 template void Tile<std::uint16_t>::copy_steps(const Rect&, Plane&) const;
-template void Tile<std::uint16_t>::store(image::Window&) const;
+template void Tile<std::uint16_t>::store(image::Window&);
 
 }  // namespace shearwater::shear
