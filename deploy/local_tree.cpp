@@ -66,9 +66,15 @@ std::string_view program_of(tree::Role role) {
     return role == tree::Role::renderer ? "shearwater-renderer" : "shearwater-compositor";
 }
 
+// Renderers are seldom busy alike: where one has most of a picture to draw, as when others are hidden behind it,
+// it may use every processor. Of very many only some do. Threads that are asked for are shared out.
 int threads_each(int wanted, int renderers) {
-    const int all = wanted > 0 ? wanted : static_cast<int>(std::thread::hardware_concurrency());
-    return std::max(1, all / std::max(1, renderers));
+    constexpr int most_a_processor = 4;
+    if (wanted > 0) {
+        return std::max(1, wanted / std::max(1, renderers));
+    }
+    const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    return std::clamp(most_a_processor * processors / std::max(1, renderers), 1, processors);
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ class LocalTree {
         options::CubeOptions cube;
         options::TreeOptions tree;
         options::ServeOptions serve = {};
-        int threads = 0;  // for all renderers together; 0: as many as processors
+        int threads = 0;  // of all renderers together; 0: each may use every processor
         std::string log_level = "warn";
     };
 
