@@ -330,7 +330,7 @@ std::uint64_t composite_permuting_as(const Slab<std::uint8_t>& slab, const Opaci
         }
         const bool narrow = (std::min(pixels.x1, i + most) - std::max(pixels.x0, i)) * scale <= narrow_voxels;
         for (int j = pixels.y0; j < pixels.y1; ++j) {
-            fetching.step();
+            fetching.step<Into::second>();
             taken += narrow ? composite_row_of_chunk<between_nodes, one_hue, true>(slab, prepared, table,
                                                                                    rays, i, j)
                             : composite_row_of_chunk<between_nodes, one_hue, false>(slab, prepared, table,

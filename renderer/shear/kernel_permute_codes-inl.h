@@ -94,7 +94,7 @@ HWY_INLINE Permutation permutation_of(const Slab<std::uint8_t>& slab, const Slic
     return permutation;
 }
 
-// For the rows of a slab, and one more: where they lie among a slice's rows of voxels.
+// For the rows of a slab, and two more: where they lie among a slice's rows of voxels.
 struct RowPlaces {
     std::array<std::int64_t, tallest_tile + 8> offsets;  // of the row before, from the slice's first voxel
     std::array<std::int32_t, tallest_tile + 8> weights;  // of the row behind, 15 bits, twice
@@ -102,7 +102,7 @@ struct RowPlaces {
 
 HWY_INLINE void lay_rows(const Slab<std::uint8_t>& slab, const Slice<std::uint8_t>& slice,
                          RowPlaces& places) {
-    for (int j = slice.pixels.y0; j <= slice.pixels.y1; j += 8) {
+    for (int j = slice.pixels.y0; j <= slice.pixels.y1 + 1; j += 8) {
         const __m512i steps =
             steps_of_eight(slice.slow_offset, slice.slow_scale, slab.slow_pixel + j, slab.slow_first);
         // Divided by cell_steps, by way of a product that is exact for all that a double may hold of it.
@@ -148,10 +148,12 @@ HWY_INLINE __m512i codes_along(const Slab<std::uint8_t>& slab, const Slice<std::
         return _mm512_maddubs_epi16(_mm512_permutexvar_epi8(permutation.voxels, voxels), permutation.weights);
     };
     if (slab.ahead.lines > 0) {
-        // Nor is this in the first cache for long: what the next row of pixels needs.
-        const std::ptrdiff_t next = places.offsets[row + 1] + permutation.first + slab.stride;
-        __builtin_prefetch(slice.voxels + next);
-        __builtin_prefetch(slice.voxels + next + permuted_voxels - 1);
+        // It was fetched no nearer than the second cache: what the next row of pixels but one lies between.
+        const std::uint8_t* const next = slice.voxels + places.offsets[row + 2] + permutation.first;
+        for (const std::uint8_t* const line : {next, next + slab.stride}) {
+            __builtin_prefetch(line);
+            __builtin_prefetch(line + permuted_voxels - 1);
+        }
     }
     __m512i before = along(slice.voxels, 0);
     __m512i behind = along(slice.voxels, slab.stride);
