@@ -96,8 +96,8 @@ HWY_INLINE Permutation permutation_of(const Slab<std::uint8_t>& slab, const Slic
 
 // For the rows of a slab, and two more: where they lie among a slice's rows of voxels.
 struct RowPlaces {
-    std::array<std::int64_t, tallest_tile + 8> offsets;  // of the row before, from the slice's first voxel
-    std::array<std::int32_t, tallest_tile + 8> weights;  // of the row behind, 15 bits, twice
+    std::array<std::int64_t, tallest_tile + 16> offsets;  // of the row before, from the slice's first voxel
+    std::array<std::int32_t, tallest_tile + 16> weights;  // of the row behind, 15 bits, twice
 };
 
 HWY_INLINE void lay_rows(const Slab<std::uint8_t>& slab, const Slice<std::uint8_t>& slice,
