@@ -147,18 +147,21 @@ void FacePlan::steps(int i, int j, std::span<float> out) const {
         std::fill(out.begin(), out.end(), static_cast<float>(factorisation_.step(face_, i, j)));
         return;
     }
-    // As Factorisation::step.
+    // As Factorisation::step, to the precision of what it gives.
     const view::Vec3& spacing = factorisation_.lattice.spacing;
     const auto square = [](double x) { return x * x; };
-    const double fast = spacing[fast_axis()];
-    const double rest = square(spacing[face_.axis]) + square(place_of(slow_axis(), j) * spacing[slow_axis()]);
-    const double pitch = factorisation_.slice_pitch();
+    const double across = spacing[face_.axis], pitch = factorisation_.slice_pitch();
+    const double slow = place_of(slow_axis(), j) * spacing[slow_axis()];
+    const auto rest = static_cast<float>(square(pitch) * (square(across) + square(slow)));
     const auto [origin, each] = line_of(fast_axis());
+    const double fast = pitch * spacing[fast_axis()];
+    const auto first = static_cast<float>(fast * origin);
+    const auto further = static_cast<float>(fast * each);
     const int count = static_cast<int>(out.size());
     float* const to = out.data();
     for (int n = 0; n < count; ++n) {
-        const double slope = origin + each * (i + n);
-        to[n] = static_cast<float>(pitch * std::sqrt(rest + square(slope * fast)));
+        const float sideways = first + further * static_cast<float>(i + n);
+        to[n] = std::sqrt(rest + sideways * sideways);
     }
 }
 

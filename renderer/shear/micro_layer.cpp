@@ -44,16 +44,21 @@ MicroLayer::MicroLayer(const CodeVolume& codes, std::span<const Content> content
     first_ = contents.data() + layer * strides[static_cast<std::size_t>(plan.face().axis)];
     fast_stride_ = strides[static_cast<std::size_t>(plan.fast_axis())];
     slow_stride_ = strides[static_cast<std::size_t>(plan.slow_axis())];
+    rows_.reserve(static_cast<std::size_t>(slow.end - slow.first));
     std::int64_t opaque = 0, blank = 0;
     for (std::int64_t s = slow.first; s < slow.end; ++s) {
-        std::uint8_t any = 0;
+        Row row;
         for (std::int64_t f = fast.first; f < fast.end; ++f) {
             const Content& content = at(f, s);
-            any |= content.opaque_octants;
-            opaque += bits_of[content.opaque_octants];
             blank += content.blanks ? 1 : 0;
+            if (content.opaque_octants != 0) {
+                opaque += bits_of[content.opaque_octants];
+                row.first = row.opaque_octants == 0 ? f : row.first;
+                row.end = f + 1;
+                row.opaque_octants |= content.opaque_octants;
+            }
         }
-        opaque_octants_.push_back(any);
+        rows_.push_back(row);
     }
     const std::int64_t count = (fast.end - fast.first) * (slow.end - slow.first);
     if (opaque > 0) {
@@ -70,11 +75,12 @@ void MicroLayer::runs(const MicroRun& fast, std::int64_t slow, int half, std::ve
     const auto near = static_cast<int>(slow % 2 << plan_.slow_axis() | half << plan_.face().axis);
     const int far = near | 1 << plan_.fast_axis();
     const unsigned both = 1U << near | 1U << far;
-    if ((opaque_octants_[static_cast<std::size_t>(slow / 2 - first_row_)] & both) == 0) {
+    const Row& row = rows_[static_cast<std::size_t>(slow / 2 - first_row_)];
+    if ((row.opaque_octants & both) == 0) {
         return;
     }
     bool open = false;  // whether the last run may go on: no octant since was blank and not to be visited so
-    for (std::int64_t f = fast.first / 2; 2 * f < fast.end; ++f) {
+    for (std::int64_t f = std::max(fast.first / 2, row.first); f < row.end && 2 * f < fast.end; ++f) {
         const Content& content = at(f, slow / 2);
         const Visit visit = content.blanks ? Visit::with_blanks : Visit::full;
         if ((content.opaque_octants & both) == 0) {
@@ -107,14 +113,16 @@ void front_to_back(const FacePlan& plan, const CodeGrid& grid, int axis, const M
     for (std::int64_t n = range.first; n < range.end; ++n) {
         order.push_back(n);
     }
-    // Mostly they are in order, this way or that.
     const auto distance_of = [&](std::int64_t n) { return distance(plan, grid, axis, {n, n + 1}); };
-    if (distance_of(order.back()) < distance_of(order.front())) {
+    // They are in order, this way or that, unless the eye is among them: then one of them is at no distance.
+    const double first = distance_of(order.front()), last = distance_of(order.back());
+    const bool among = plan.factorisation().projection == view::Projection::perspective &&
+                       distance(plan, grid, axis, range) == 0;
+    if (among) {
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::int64_t a, std::int64_t b) { return distance_of(a) < distance_of(b); });
+    } else if (last < first) {
         std::reverse(order.begin(), order.end());
-    }
-    const auto nearer = [&](std::int64_t a, std::int64_t b) { return distance_of(a) < distance_of(b); };
-    if (!std::is_sorted(order.begin(), order.end(), nearer)) {
-        std::stable_sort(order.begin(), order.end(), nearer);
     }
 }
 

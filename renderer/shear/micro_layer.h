@@ -56,7 +56,11 @@ class MicroLayer {
     const CodeGrid& grid_;
     Visit visit_ = Visit::none;
     std::int64_t first_row_;
-    std::vector<std::uint8_t> opaque_octants_;  // that any micro-brick of a row has
+    struct Row {
+        std::uint8_t opaque_octants = 0;  // that any micro-brick of it has
+        std::int64_t first = 0, end = 0;  // micro-bricks that have some
+    };
+    std::vector<Row> rows_;
 };
 
 // Octants [first, end) along an in-plane axis in an order that is front to back along every ray.

@@ -27,16 +27,17 @@ void Tile<Code>::begin_rays() {
         plane->fill(0);
     }
     const float unit = classification_.segments ? 1 : classification_.table.depth_unit();
+    const auto across = static_cast<std::size_t>(rect_.width());
     float longest = 0;
     for (int j = rect_.y0; j < rect_.y1; ++j) {
-        const std::span<float> row(&planes_->steps[slot(rect_.x0, j)],
-                                   static_cast<std::size_t>(rect_.width()));
+        const std::span<float> row(&planes_->steps[slot(rect_.x0, j)], across);
         plan_.steps(rect_.x0, j, row);
         for (float& step : row) {
             // Finite, so that times no extinction it is nothing.
             step = std::min(step * unit, 1e38F);
-            longest = std::max(longest, step);
         }
+        // A step is the longer the farther its ray moves sideways: the longest is that of an end.
+        longest = std::max({longest, row.front(), row.back()});
     }
     between_nodes_ = classification_.table.steepest() * longest > jump_seen;
     // A ray's first sample and its last may stand for two steps.
@@ -86,14 +87,14 @@ Rays Tile<Code>::rays() {
 // Most samples stand for a whole step. Those that do not are at the rim of what the cube covers on a slice.
 template <class Code>
 const float* Tile<Code>::lengths_on(std::int64_t k, const Rect& pixels, Plane& spare) {
-    const Rect inner = plan_.slice_plan(k).whole;
-    const std::array<Rect, 4> rims = left_over(
-        pixels, {inner.x0 - rect_.x0, inner.y0 - rect_.y0, inner.x1 - rect_.x0, inner.y1 - rect_.y0});
-    if (std::ranges::all_of(rims, &Rect::empty)) {
+    const Rect& face_inner = plan_.slice_plan(k).whole;
+    const Rect inner{face_inner.x0 - rect_.x0, face_inner.y0 - rect_.y0, face_inner.x1 - rect_.x0,
+                     face_inner.y1 - rect_.y0};
+    if (intersection(pixels, inner) == pixels) {
         return planes_->steps.data();
     }
     copy_steps(pixels, spare);
-    for (const Rect& rim : rims) {
+    for (const Rect& rim : left_over(pixels, inner)) {
         if (!rim.empty()) {
             plan_.apply_shares(k, in_face(rim), lengths_in(spare));
         }

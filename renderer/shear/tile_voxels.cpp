@@ -110,6 +110,11 @@ void TileVoxels<Code>::turn(const VoxelRegion& region, std::span<const VoxelRegi
 // fast axis is 1, the slow one 2.
 template <class Code>
 VoxelRegion TileVoxels<Code>::wanted_of_plane(std::int64_t v) const {
+    if (copied_.size() == 1) {
+        VoxelRegion plane = whole_;
+        plane.lo[1] = plane.hi[1] = v;
+        return plane;
+    }
     std::optional<VoxelRegion> wanted;
     for (const VoxelRegion& part : copied_) {
         if (part.lo[1] <= v && v <= part.hi[1]) {
