@@ -116,7 +116,7 @@ template <class Code>
 class FaceRenderer {
   public:
     FaceRenderer(Frame& frame, const FacePlan& plan, InOrder& order)
-        : frame_(frame), plan_(plan), order_(order) {}
+        : frame_(frame), plan_(plan), order_(order), tile_rows_(Tile<Code>::rows_of(plan)) {}
 
     void add(std::size_t band, const view::Band& cut) {
         const Rect rect = intersection(plan_.window(), plan_.turn(cut.rect));
@@ -128,7 +128,7 @@ class FaceRenderer {
         part.band = band;
         part.rect = rect;
         part.across = (rect.width() + Tile<Code>::width - 1) / Tile<Code>::width;
-        const int down = (rect.height() + Tile<Code>::height - 1) / Tile<Code>::height;
+        const int down = (rect.height() + tile_rows_ - 1) / tile_rows_;
         part.first_tile = tiles_;
         part.tiles_left = std::int64_t{part.across} * down;
         part.window.face = cut.face;
@@ -148,13 +148,12 @@ class FaceRenderer {
         Part& part = *std::prev(after);
         const int x =
             part.rect.x0 + static_cast<int>((n - part.first_tile) % part.across) * Tile<Code>::width;
-        const int y =
-            part.rect.y0 + static_cast<int>((n - part.first_tile) / part.across) * Tile<Code>::height;
+        const int y = part.rect.y0 + static_cast<int>((n - part.first_tile) / part.across) * tile_rows_;
         auto tile = idle_.take([this] {
             return std::make_unique<Tile<Code>>(frame_.volume, frame_.classification, frame_.contents, plan_,
                                                 frame_.met);
         });
-        const Rect rect = intersection(part.rect, {x, y, x + Tile<Code>::width, y + Tile<Code>::height});
+        const Rect rect = intersection(part.rect, {x, y, x + Tile<Code>::width, y + tile_rows_});
         if (tile->render(rect)) {
             std::call_once(part.begun, [&] {
                 const Rect all = plan_.turn(part.rect);
@@ -190,6 +189,7 @@ class FaceRenderer {
     Frame& frame_;
     const FacePlan& plan_;
     InOrder& order_;
+    const int tile_rows_;
     IdleTiles<Code> idle_;
     std::deque<Part> parts_;
     std::int64_t tiles_ = 0;

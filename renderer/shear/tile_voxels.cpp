@@ -92,7 +92,10 @@ void TileVoxels<Code>::turn(const VoxelRegion& region, std::span<const VoxelRegi
     constexpr std::int64_t block = 16;
     row_ = ((count(0) + 2 * block - 1) / block | 1) * block;
     plane_ = row_ * (count(1) + 1);
-    copy_.resize(static_cast<std::size_t>(plane_ * (count(2) + block)) + voxel_padding);
+    const auto needed = static_cast<std::size_t>(plane_ * (count(2) + block)) + voxel_padding;
+    if (copy_.size() < needed) {
+        copy_.resize(needed);
+    }
     for (std::int64_t v = whole_.lo[1]; v <= whole_.hi[1]; ++v) {
         const VoxelRegion wanted = wanted_of_plane(v);
         const auto [f0, w0] = std::pair(wanted.lo[0], wanted.lo[2]);
