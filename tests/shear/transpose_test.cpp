@@ -38,8 +38,8 @@ void expect_turned(int columns, int rows) {
 TEST(Transpose, TurnsMatricesOfEverySize) {
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
         hwy::SetSupportedTargetsForTest(target);
-        for (const int columns : {1, 4, 15, 16, 17, 20, 21, 33, 64, 65}) {
-            for (const int rows : {1, 12, 13, 16, 31, 63, 64, 65, 80, 127, 130, 192, 200}) {
+        for (const int columns : {1, 4, 15, 16, 17, 20, 21, 33, 64, 65, 80, 128}) {
+            for (const int rows : {1, 12, 13, 16, 31, 33, 48, 63, 64, 65, 80, 112, 127, 130, 192, 200}) {
                 expect_turned<std::uint8_t>(columns, rows);
                 expect_turned<std::uint16_t>(columns, rows);
             }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -433,6 +434,27 @@ TEST(VisibilityOrder, EndsForARingOfBoxes) {
     EXPECT_EQ(visibility_order(f, ring).size(), 3U);
     EXPECT_EQ(visibility_order(f, {ring[0], ring[0]}).size(), 2U);
     EXPECT_TRUE(visibility_order(f, {}).empty());
+}
+
+// Of a rectangle every pixel is in another or in just one of what that leaves over.
+TEST(Rects, LeaveOverWhatIsNotInBoth) {
+    std::mt19937 random(3);
+    std::uniform_int_distribution<int> at(-2, 7);
+    for (int trial = 0; trial < 500; ++trial) {
+        const Rect whole{at(random), at(random), at(random), at(random)};
+        const Rect part{at(random), at(random), at(random), at(random)};
+        const auto contains = [](const Rect& rect, int x, int y) {
+            return rect.x0 <= x && x < rect.x1 && rect.y0 <= y && y < rect.y1;
+        };
+        const auto left = left_over(whole, part);
+        for (int y = -2; y < 8; ++y) {
+            for (int x = -2; x < 8; ++x) {
+                const auto in = std::ranges::count_if(left, [&](const Rect& r) { return contains(r, x, y); });
+                EXPECT_EQ(in, contains(whole, x, y) && !contains(part, x, y) ? 1 : 0)
+                    << trial << ": " << x << ", " << y;
+            }
+        }
+    }
 }
 
 }  // namespace
