@@ -120,9 +120,8 @@ void turn_8(const Matrix<std::uint8_t>& from, std::uint8_t* to, std::ptrdiff_t c
     const auto whole_blocks = [](int count) { return (count + side - 1 - few) / side * side; };
     const int block_columns = whole_blocks(from.columns);
     const int block_rows = whole_blocks(from.rows);
-    const auto first = [&](int column, int row) HWY_ATTR {
-        return from.first + row * from.row_stride + column;
-    };
+    const auto first = [&](int column, int row)
+                           HWY_ATTR { return from.first + row * from.row_stride + column; };
     const auto turned = [&](int column, int row) HWY_ATTR { return to + column * column_stride + row; };
     Fetching fetching(ahead, block_rows / side * (block_columns / side));
     const auto fetch = [&](int blocks) HWY_ATTR {
@@ -132,13 +131,16 @@ void turn_8(const Matrix<std::uint8_t>& from, std::uint8_t* to, std::ptrdiff_t c
     };
     int column = 0;
 #if HWY_TARGET != HWY_SCALAR && HWY_CAP_GE512
-    for (; column + line <= block_columns; column += line) {
-        for (int row = 0; row < block_rows;) {
-            const int left = (block_rows - row) / side;
-            const int blocks = left >= 4 ? 4 : left >= 2 ? 2 : 1;
+    for (; from.rows >= side && column + line <= block_columns; column += line) {
+        const int covered = std::min(block_rows, from.rows);
+        for (int row = 0; row < covered;) {
+            const int left = covered - row;
+            const int blocks = left >= 4 * side ? 4 : left >= 2 * side ? 2 : 1;
+            // The last may lie partly over the one before.
+            const int at = std::min(row, from.rows - blocks * side);
             fetch(blocks * (line / side));
             const auto turn_some = [&](auto count) HWY_ATTR {
-                turn_lines<count>(first(column, row), from.row_stride, turned(column, row), column_stride);
+                turn_lines<count>(first(column, at), from.row_stride, turned(column, at), column_stride);
             };
             if (blocks == 4) {
                 turn_some(std::integral_constant<int, 4>());
@@ -147,7 +149,7 @@ void turn_8(const Matrix<std::uint8_t>& from, std::uint8_t* to, std::ptrdiff_t c
             } else {
                 turn_some(std::integral_constant<int, 1>());
             }
-            row += blocks * side;
+            row = at + blocks * side;
         }
     }
 #endif
