@@ -66,8 +66,8 @@ std::string_view program_of(tree::Role role) {
     return role == tree::Role::renderer ? "shearwater-renderer" : "shearwater-compositor";
 }
 
-// Renderers are seldom busy alike: where one has most of a picture to draw, as when others are hidden behind it,
-// it may use every processor. Of very many only some do. Threads that are asked for are shared out.
+// Renderers are seldom busy alike: where one has most of a picture to draw, as when others are hidden behind
+// it, it may use every processor. Of very many only some do. Threads that are asked for are shared out.
 int threads_each(int wanted, int renderers) {
     constexpr int most_a_processor = 4;
     if (wanted > 0) {

@@ -2,7 +2,7 @@
 // What of a ray lies between the two sides of what is shown of the cube across one in-plane axis of a face.
 
 #include <algorithm>
-#include <cstdint>
+#include <cstddef>
 #include <limits>
 
 #include "common/view/factorisation.h"

@@ -192,11 +192,11 @@ void FacePlan::scale(const Rect& pixels, const RayLengths& lengths, const Steps&
         }
         for (int j = pixels.y0; j < pixels.y1; ++j) {
             const Stretch row = rows_[static_cast<std::size_t>(j - window_.y0)];
-            float* const out = lengths.at(0, j);
-            for (int i = first; i < end; ++i) {
-                const Stretch& column = columns[static_cast<std::size_t>(i - first)];
+            float* const out = lengths.at(first, j);
+            for (int n = 0; n < end - first; ++n) {
+                const Stretch& column = columns[static_cast<std::size_t>(n)];
                 const Stretch ray{std::max(row.from, column.from), std::min(row.to, column.to)};
-                out[i] *= static_cast<float>(steps(ray, i, j));
+                out[n] *= static_cast<float>(steps(ray, first + n, j));
             }
         }
     }

@@ -51,9 +51,6 @@ typename TileVoxels<Code>::Place TileVoxels<Code>::find(const VoxelRegion& regio
 
 template <class Code>
 Ahead TileVoxels<Code>::ahead(const VoxelRegion& region) const {
-    if (region.hi[1] < region.lo[1]) {
-        return {};
-    }
     volume::Index3 at;
     for (std::size_t n = 0; n < 3; ++n) {
         at[static_cast<std::size_t>(axes_[n])] = region.lo[n];
