@@ -81,8 +81,9 @@ void add(const shear::RenderStats& part, shear::RenderStats& sum) {
 // A cube's voxels by one mapping at a time, and what is known of them.
 class Loaded {
   public:
-    Loaded(cube::Cube& source, const view::Lattice& lattice, culling::Kind culling, base::Workers& workers)
-        : source_(source), lattice_(lattice), culling_(culling), workers_(workers) {}
+    Loaded(cube::Cube& source, const view::Lattice& lattice, int copies, culling::Kind culling,
+           base::Workers& workers)
+        : source_(source), lattice_(lattice), copies_(copies), culling_(culling), workers_(workers) {}
 
     // Reads them, unless it has them so already.
     base::Status hold(const volume::Mapping& mapping, const volume::Progress& progress) {
@@ -95,6 +96,9 @@ class Loaded {
                                              workers_, progress);
         if (!read) {
             return read.error();
+        }
+        if (const auto kept = copies_ == 2 ? read->keep_turned(workers_) : base::Status(); !kept) {
+            return kept;
         }
         volume_.emplace(*std::move(read));
         mapping_ = mapping;
@@ -111,6 +115,7 @@ class Loaded {
   private:
     cube::Cube& source_;
     const view::Lattice lattice_;
+    const int copies_;
     const culling::Kind culling_;
     base::Workers& workers_;
     std::optional<shear::BrickVolume> volume_;
@@ -153,7 +158,7 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
     const culling::Settings culling = view.drawing.culling_settings();
     view::Sampling sampling = view.sampling();
     sampling.opaque = culling.opaque();
-    Loaded loaded(*opened, lattice, culling.kind, workers);
+    Loaded loaded(*opened, lattice, cube.copies, culling.kind, workers);
     const auto hold = [&](const volume::Progress& told) {
         return loaded.hold(shot->scaling ? volume::Mapping::of(*shot->scaling, cube.bits) : values->mapping,
                            told);

@@ -47,6 +47,7 @@ head::CubeFacts facts_of(const fits::CubeInfo& info, const options::CubeOptions&
             .plane = info.plane,
             .lattice = {.n = info.n, .spacing = options.spacing_value()},
             .sketch_level = volume::sketch_level(info.n),
+            .copies = options.copies,
             .world = info.world};
 }
 

@@ -18,6 +18,15 @@ std::string exact(double value) {
 
 }  // namespace
 
+void add_copies(CLI::App& app, int& copies, const std::string& group) {
+    app.add_option(
+           "--copies", copies,
+           "of the voxels in memory; 2: for views along the first axis, which are then as fast as others")
+        ->check(CLI::IsMember({1, 2}))
+        ->capture_default_str()
+        ->group(group);
+}
+
 void CubeOptions::add_to(CLI::App& app) {
     const std::string group = "Cube";
     app.add_option("--hdu", hdu, "the file's HDU that holds the cube, from 0; else the first that does")
@@ -43,6 +52,7 @@ void CubeOptions::add_to(CLI::App& app) {
         ->check(CLI::IsMember({8, 16}))
         ->capture_default_str()
         ->group(group);
+    add_copies(app, copies, group);
     app.add_option("--spacing", spacing, "world units between voxels along x, y and z")
         ->expected(3)
         ->allow_extra_args(false)
@@ -85,6 +95,7 @@ std::vector<std::string> CubeOptions::arguments() const {
     add("--percentile", {exact(percentile)});
     add("--stretch", {stretch});
     add("--bits", {std::to_string(bits)});
+    add("--copies", {std::to_string(copies)});
     if (spacing.size() == 3) add("--spacing", {exact(spacing[0]), exact(spacing[1]), exact(spacing[2])});
     return words;
 }

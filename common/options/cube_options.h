@@ -14,6 +14,9 @@
 
 namespace shearwater::options {
 
+// --copies, which says how many of the codes to keep in memory.
+void add_copies(CLI::App& app, int& copies, const std::string& group = "Options");
+
 struct CubeOptions {
     std::string path;
     std::optional<int> hdu;
@@ -22,6 +25,7 @@ struct CubeOptions {
     double percentile = 99.5;
     std::string stretch = "linear";
     int bits = 8;
+    int copies = 1;               // of the codes, in memory: 1 or 2
     std::vector<double> spacing;  // x y z, or empty: 1 1 1
 
     // All but the path, which each command takes in its own way.

@@ -32,6 +32,7 @@ base::Result<std::vector<Case>> CaseOptions::cases() const {
             const Workload made = workload(name);
             cases.push_back({name, made.cube(edge), made.tf});
             cases.back().cube.bits = cube.bits;
+            cases.back().cube.copies = cube.copies;
         }
         return cases;
     }

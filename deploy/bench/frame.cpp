@@ -29,6 +29,7 @@ Record row(const FrameFlags& flags, const Case& drawn, const InProcess& cube, co
         .text("cube", cube_text(cube.lattice().n), 12)
         .text("view", view, 11)
         .count("threads", static_cast<std::uint64_t>(cube.threads()))
+        .aside("copies", flags.drawn.cube.copies)
         .aside("image", flags.common.image)
         .aside("quality", flags.common.quality)
         .aside("classify", flags.common.drawing.classify)

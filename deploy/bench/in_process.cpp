@@ -70,8 +70,8 @@ base::Result<InProcess> InProcess::load(const options::CubeOptions& options, int
         return cube.error();
     }
     const auto voxels = static_cast<std::uint64_t>(volume::voxel_count(cube->info.n));
-    if (const auto fits =
-            check_memory("load " + options.path, voxels * static_cast<std::uint64_t>(options.bits / 8));
+    if (const auto fits = check_memory(
+            "load " + options.path, voxels * static_cast<std::uint64_t>(options.bits / 8 * options.copies));
         !fits) {
         return fits.error();
     }
@@ -86,12 +86,14 @@ base::Result<InProcess> InProcess::load(const options::CubeOptions& options, int
     if (!bricks) {
         return bricks.error();
     }
+    if (const auto kept = options.copies == 2 ? bricks->keep_turned(*workers) : base::Status(); !kept) {
+        return kept.error();
+    }
     return InProcess(lattice, std::move(workers), *std::move(bricks));
 }
 
-FrameTimes InProcess::draw(const view::Camera& camera, const view::ImageSize& size,
-                           view::Sampling sampling, const view::TransferFunction& tf,
-                           const Culling* culling) {
+FrameTimes InProcess::draw(const view::Camera& camera, const view::ImageSize& size, view::Sampling sampling,
+                           const view::TransferFunction& tf, const Culling* culling) {
     FrameTimes times;
     Clock clock;
     if (culling != nullptr) {

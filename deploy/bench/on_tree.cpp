@@ -13,8 +13,8 @@ base::Result<OnTree> OnTree::start(const options::CubeOptions& cube, int branchi
         return opened.error();
     }
     const auto voxels = static_cast<std::uint64_t>(volume::voxel_count(opened->info.n));
-    if (const auto fits =
-            check_memory("load " + cube.path, voxels * static_cast<std::uint64_t>(cube.bits / 8));
+    if (const auto fits = check_memory("load " + cube.path,
+                                       voxels * static_cast<std::uint64_t>(cube.bits / 8 * cube.copies));
         !fits) {
         return fits.error();
     }

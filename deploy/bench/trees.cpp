@@ -21,6 +21,7 @@ struct TreesFlags {
     std::vector<std::int64_t> edges{64, 128, 256, 512, 1024};
     std::vector<int> nodes{1, 3, 7, 15, 31};
     std::string workload = "W1";
+    int copies = 1;
 };
 
 // What a row says of the frames, by whatever they were drawn.
@@ -36,11 +37,17 @@ std::string title(const TreesFlags& flags, std::int64_t edge, int nodes) {
            (nodes == 1 ? "one process" : std::to_string(nodes) + " nodes");
 }
 
+options::CubeOptions cube_of(const TreesFlags& flags, std::int64_t edge) {
+    options::CubeOptions cube = workload(flags.workload).cube(edge);
+    cube.copies = flags.copies;
+    return cube;
+}
+
 base::Result<Drawn> draw_here(const TreesFlags& flags, std::int64_t edge) {
     const Workload work = workload(flags.workload);
     deploy::ProgressBar bar(title(flags, edge, 1));
     const auto show = [&](double share) { bar.show(share); };
-    auto cube = InProcess::load(work.cube(edge), flags.common.threads, show);
+    auto cube = InProcess::load(cube_of(flags, edge), flags.common.threads, show);
     if (!cube) {
         return cube.error();
     }
@@ -60,7 +67,7 @@ base::Result<Drawn> draw_here(const TreesFlags& flags, std::int64_t edge) {
 base::Result<Drawn> draw_by_tree(const TreesFlags& flags, std::int64_t edge, int nodes) {
     const Workload work = workload(flags.workload);
     const int levels = std::countr_one(static_cast<unsigned>(nodes));
-    auto tree = OnTree::start(work.cube(edge), 2, levels, flags.common.threads);
+    auto tree = OnTree::start(cube_of(flags, edge), 2, levels, flags.common.threads);
     if (!tree) {
         return tree.error();
     }
@@ -100,6 +107,7 @@ Record row(const TreesFlags& flags, std::int64_t edge, int nodes, const Drawn& d
     Record record;
     record.text("cube", std::to_string(edge) + "^3")
         .aside("workload", flags.workload)
+        .aside("copies", flags.copies)
         .aside("image", flags.common.image)
         .aside("frames", flags.common.frames)
         .count("nodes", static_cast<std::uint64_t>(nodes))
@@ -166,6 +174,7 @@ Run add_trees(CLI::App& app) {
         ->check(CLI::Validator(check_nodes, "NODES", "nodes"))
         ->capture_default_str();
     add_workload(app, flags->workload);
+    options::add_copies(app, flags->copies);
     flags->common.add_frames(app);
     flags->common.add_in_flight(app);
     flags->common.add_image(app);

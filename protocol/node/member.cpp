@@ -145,7 +145,7 @@ void Member::tell_parent(wire::Message message, std::vector<wire::NetEffect>& ef
 bool same_work(const wire::pb::Assign& a, const wire::pb::Assign& b) {
     using google::protobuf::util::MessageDifferencer;
     return MessageDifferencer::Equals(a.box(), b.box()) && MessageDifferencer::Equals(a.cube(), b.cube()) &&
-           a.bits() == b.bits();
+           a.bits() == b.bits() && a.copies() == b.copies();
 }
 
 }  // namespace shearwater::node

@@ -131,7 +131,8 @@ void Leaf::on_assigned(Effects& effects) {
                        .plane = assign.cube().plane(),
                        .lattice = *lattice,
                        .box = *box,
-                       .place = 0};
+                       .place = 0,
+                       .copies = assign.copies() == 2 ? 2 : 1};
         histogram_.reset();
         sketch_level_ = static_cast<int>(assign.sketch_level());
         sketched_.reset();

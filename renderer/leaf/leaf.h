@@ -35,6 +35,7 @@ struct Share {
     view::Lattice lattice;
     volume::Box box;
     int place = 0;
+    int copies = 1;  // of its codes to keep
 };
 
 // ---- jobs the daemon carries out away from the network's thread, and what comes of them ----

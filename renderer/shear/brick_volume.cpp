@@ -76,6 +76,19 @@ base::Result<BrickVolume> BrickVolume::load(volume::VoxelSource& source, const B
     }
 }
 
+base::Status BrickVolume::keep_turned(base::Workers& workers, const std::stop_token& stop) {
+    try {
+        for (CodeVolume& level : levels_) {
+            if (!level.keep_turned(workers, stop)) {
+                return refuse(base::Code::cancelled, box_, "stopped");
+            }
+        }
+        return {};
+    } catch (const std::bad_alloc&) {
+        return refuse(base::Code::too_large, box_, "there is not enough memory for a second copy of it");
+    }
+}
+
 bool BrickVolume::survey(base::Workers& workers, const std::stop_token& stop) {
     for (std::size_t level = 0; level < levels_.size(); ++level) {
         if (!levels_[level].survey(volume::nodes_of(box_, static_cast<int>(level)), workers, stop)) {

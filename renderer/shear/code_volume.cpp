@@ -1,11 +1,10 @@
 #include "renderer/shear/code_volume.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "common/base/check.h"
-#include "renderer/shear/kernel.h"
 #include "renderer/shear/survey.h"
+#include "renderer/shear/transpose.h"
 
 namespace shearwater::shear {
 
@@ -14,24 +13,28 @@ using volume::Index3;
 
 namespace {
 
-// A little more than so many codes, if need be: rows or planes that lie a large power of two apart would
-// compete for the same few lines of the caches.
-std::int64_t padded(std::int64_t codes, std::int64_t code_bytes) {
-    constexpr std::int64_t word = 4, line = 64, far = 512;
-    const std::int64_t bytes = (codes * code_bytes + word - 1) / word * word;
-    return (bytes % far == 0 ? bytes + line : bytes) / code_bytes;
-}
-
-Index3 strides_of(const Box& box, int bits) {
-    const std::int64_t row = padded(box.planes(0), bits / 8);
-    return {1, row, padded(row * box.planes(1), bits / 8)};
-}
-
-// With what may be read beyond the last: whole blocks are turned, so also rows.
-std::size_t bytes_of(const Box& box, const Index3& strides, int bits) {
-    constexpr std::int64_t rows_beyond = 16;
-    const std::int64_t codes = strides[2] * box.planes(2) + rows_beyond * strides[1];
-    return static_cast<std::size_t>(codes * (bits / 8)) + voxel_padding;
+// Of a plane across axis 2: rows of one along axis 0 become those of the other along axis 1.
+template <class Code>
+void turn_plane(const CodeArray& from, CodeArray& to, std::int64_t plane) {
+    // Whole blocks first: of these nothing is written or read beyond the last.
+    constexpr int block = 16;
+    const Box& box = from.box();
+    const Index3 first{box.lo[0], box.lo[1], plane};
+    const auto across = static_cast<int>(box.planes(0)), down = static_cast<int>(box.planes(1));
+    const int columns = across / block * block, rows = down / block * block;
+    const Code* const source = &from.codes<Code>()[from.offset(first)];
+    Code* const turned = &to.codes<Code>()[to.offset(first)];
+    turn(Matrix<Code>{.first = source, .row_stride = from.stride(1), .columns = columns, .rows = rows},
+         turned, to.stride(0), {});
+    const auto turn_rest = [&](int first_column, int first_row, int end_column, int end_row) {
+        for (int column = first_column; column < end_column; ++column) {
+            for (int row = first_row; row < end_row; ++row) {
+                turned[column * to.stride(0) + row] = source[row * from.stride(1) + column];
+            }
+        }
+    };
+    turn_rest(0, rows, columns, down);
+    turn_rest(columns, 0, across, down);
 }
 
 }  // namespace
@@ -52,34 +55,36 @@ CodeGrid::CodeGrid(const Box& box, std::int64_t edge) : edge_(edge) {
     ranges_.resize(static_cast<std::size_t>(count));
 }
 
-CodeVolume::CodeVolume(const Box& box, int bits)
-    : box_(box),
-      own_(box),
-      bits_(bits),
-      strides_(strides_of(box, bits)),
-      codes_(bytes_of(box, strides_, bits)) {}
+CodeVolume::CodeVolume(const Box& box, int bits) : own_(box), bits_(bits), codes_(box, bits, {0, 1, 2}) {}
 
 std::size_t CodeVolume::bytes() const {
-    return codes_.size() + micro_bricks_.ranges().size_bytes() + std::span(octants_).size_bytes() +
-           reaches().size_bytes();
+    return codes_.bytes() + (turned_ ? turned_->bytes() : 0) + micro_bricks_.ranges().size_bytes() +
+           std::span(octants_).size_bytes() + reaches().size_bytes();
 }
 
-std::size_t CodeVolume::offset(const Index3& p) const {
-    std::size_t offset = 0;
-    for (std::size_t a = 0; a < 3; ++a) {
-        offset += static_cast<std::size_t>((p[a] - box_.lo[a]) * strides_[a]);
-    }
-    return offset;
+bool CodeVolume::keep_turned(base::Workers& workers, const std::stop_token& stop) {
+    turned_.emplace(box(), bits_, std::array{1, 2, 0});
+    return workers.for_each(
+        box().planes(2),
+        [&](std::int64_t n) {
+            const std::int64_t plane = box().lo[2] + n;
+            bits_ == 8 ? turn_plane<std::uint8_t>(codes_, *turned_, plane)
+                       : turn_plane<std::uint16_t>(codes_, *turned_, plane);
+        },
+        stop);
 }
 
 bool CodeVolume::copy(const CodeVolume& from, const Box& box, base::Workers& workers,
                       const std::stop_token& stop) {
-    base::check(box_.contains(box) && from.box_.contains(box) && from.bits_ == bits_,
+    base::check(this->box().contains(box) && from.box().contains(box) && from.bits_ == bits_,
                 "codes are copied that both volumes hold");
     const auto code_bytes = static_cast<std::size_t>(bits_ / 8);
-    const auto row_of = [&](const CodeVolume& volume, const Index3& p) {
-        return static_cast<std::byte*>(volume.codes_.data()) + volume.offset(p) * code_bytes;
+    const auto offset_in = [&](const CodeVolume& volume, const Index3& p) {
+        return volume.offset(p) * code_bytes;
     };
+    const auto to_bytes = codes_.codes<std::byte>();
+    const auto from_bytes = from.codes<std::byte>();
+    const std::size_t row_bytes = static_cast<std::size_t>(box.planes(0)) * code_bytes;
     constexpr std::int64_t rows_at_once = 64;
     const std::int64_t pieces = (box.planes(1) + rows_at_once - 1) / rows_at_once;
     return workers.for_each(
@@ -88,32 +93,22 @@ bool CodeVolume::copy(const CodeVolume& from, const Box& box, base::Workers& wor
             const std::int64_t z = box.lo[2] + piece / pieces;
             const std::int64_t first = box.lo[1] + piece % pieces * rows_at_once;
             for (std::int64_t y = first; y < std::min(first + rows_at_once, box.hi[1] + 1); ++y) {
-                std::memcpy(row_of(*this, {box.lo[0], y, z}), row_of(from, {box.lo[0], y, z}),
-                            static_cast<std::size_t>(box.planes(0)) * code_bytes);
+                const Index3 row{box.lo[0], y, z};
+                std::ranges::copy(from_bytes.subspan(offset_in(from, row), row_bytes),
+                                  to_bytes.subspan(offset_in(*this, row)).begin());
             }
         },
         stop);
 }
 
-void CodeVolume::move_planes(std::int64_t first) {
-    base::check(first >= box_.lo[2], "planes move towards the first");
-    const std::int64_t passed = std::min(first - box_.lo[2], box_.planes(2));
-    const auto plane_bytes = static_cast<std::size_t>(strides_[2] * (bits_ / 8));
-    auto* const all = static_cast<std::byte*>(codes_.data());
-    std::memmove(all, all + static_cast<std::size_t>(passed) * plane_bytes,
-                 static_cast<std::size_t>(box_.planes(2) - passed) * plane_bytes);
-    box_.hi[2] += first - box_.lo[2];
-    box_.lo[2] = first;
-}
-
 bool CodeVolume::survey(const Box& own, base::Workers& workers, const std::stop_token& stop) {
-    base::check(box_.contains(own), "a volume holds its own nodes");
+    base::check(box().contains(own), "a volume holds its own nodes");
     own_ = own;
     micro_bricks_ = CodeGrid(own, micro_edge);
     octants_.assign(micro_bricks_.ranges().size(), {});
     reaches_.resize(micro_bricks_.ranges().size());
     const auto over = [&]<class Code>(std::span<const Code> codes) {
-        return shear::survey(CodesOfBox<Code>{codes.data(), box_, stride(1), stride(2)}, own,
+        return shear::survey(CodesOfBox<Code>{codes.data(), box(), stride(1), stride(2)}, own,
                              {micro_bricks_, octants_, reaches_}, workers, stop);
     };
     return bits_ == 8 ? over(std::as_const(*this).codes<std::uint8_t>())

@@ -1,21 +1,24 @@
 #pragma once
-// Codes of the nodes in a box of some level of a cube: one copy that serves all three principal axes.
+// Codes of the nodes in a box of some level of a cube: one copy that serves all three principal axes, or two.
 //
 // Codes lie in rows along axis 0, planes of rows, and so on, as in the cube, so that a tile's samples on a
-// slice lie in a few long rows whatever the axis. What a transfer function may pass over is told by
-// micro-bricks of 8^3 cells on a grid global to the level, each with the codes that occur on its planes,
-// those it shares with its neighbours included; of its octants, more coarsely; and with those that a segment
-// from one slice to the next may reach that begins in it. On level 0 the nodes are the cube's voxels.
+// slice lie in a few long rows whatever the axis. Where axis 0 is the principal one they have to be turned,
+// tile by tile, unless a second copy is kept that has rows along axis 1. What a transfer function may pass
+// over is told by micro-bricks of 8^3 cells on a grid global to the level, each with the codes that occur on
+// its planes, those it shares with its neighbours included; of its octants, more coarsely; and with those
+// that a segment from one slice to the next may reach that begins in it. On level 0 the nodes are the cube's
+// voxels.
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
 
-#include "common/base/huge_array.h"
 #include "common/base/workers.h"
 #include "common/volume/box.h"
+#include "renderer/shear/code_array.h"
 
 namespace shearwater::shear {
 
@@ -71,31 +74,37 @@ class CodeVolume {
     // Blank throughout, with codes of 8 or 16 bits; std::bad_alloc where there is no room.
     CodeVolume(const volume::Box& box, int bits);
 
-    const volume::Box& box() const { return box_; }
+    const volume::Box& box() const { return codes_.box(); }
     // The nodes between which the sub-volume's own samples lie: all but a margin (volume::nodes_kept).
     const volume::Box& own() const { return own_; }
     int bits() const { return bits_; }
     std::size_t bytes() const;
 
-    // The codes, `Code` having as many bits. That of the node at p lies at offset(p); from one to the next
-    // along an axis it is stride(axis). Behind the last lie a few rows and voxel_padding bytes more.
+    // As CodeArray has them, rows along axis 0.
     template <class Code>
     std::span<const Code> codes() const {
-        return {static_cast<const Code*>(codes_.data()), codes_.size() / sizeof(Code)};
+        return codes_.codes<Code>();
     }
     template <class Code>
     std::span<Code> codes() {
-        return {static_cast<Code*>(codes_.data()), codes_.size() / sizeof(Code)};
+        return codes_.codes<Code>();
     }
-    std::ptrdiff_t stride(int axis) const { return strides_[static_cast<std::size_t>(axis)]; }
-    std::size_t offset(const volume::Index3& p) const;
+    std::ptrdiff_t stride(int axis) const { return codes_.stride(axis); }
+    std::size_t offset(const volume::Index3& p) const { return codes_.offset(p); }
+
+    // Keeps a second copy of all codes as they are now, as large as the first; false if stopped before.
+    // std::bad_alloc where there is no room.
+    bool keep_turned(base::Workers& workers, const std::stop_token& stop);
+    // What faces with a principal axis are best drawn from: codes whose rows run along another, if there are.
+    const CodeArray& best_for(int principal_axis) const {
+        return turned_ && codes_.adjacent_axis() == principal_axis ? *turned_ : codes_;
+    }
 
     // Copies the codes of a box that both hold; false if stopped before.
     bool copy(const CodeVolume& from, const volume::Box& box, base::Workers& workers,
               const std::stop_token& stop);
-    // Moves the box along axis 2 to begin with another plane, no earlier one. What codes its planes had that
-    // it still holds they keep; the others have any.
-    void move_planes(std::int64_t first);
+    // Moves the box along axis 2, as CodeArray does; the first copy only.
+    void move_planes(std::int64_t first) { codes_.move_planes(first); }
 
     // Finds out what the micro-bricks of the sub-volume's own nodes hold; false if stopped before.
     bool survey(const volume::Box& own, base::Workers& workers, const std::stop_token& stop);
@@ -106,10 +115,10 @@ class CodeVolume {
     std::span<const CodeRange> reaches() const { return reaches_; }
 
   private:
-    volume::Box box_, own_;
+    volume::Box own_;
     int bits_ = 8;
-    volume::Index3 strides_{};
-    base::HugeBytes codes_;
+    CodeArray codes_;
+    std::optional<CodeArray> turned_;
     CodeGrid micro_bricks_;
     std::vector<Octants> octants_;
     std::vector<CodeRange> reaches_;

@@ -116,7 +116,7 @@ template <class Code>
 class FaceRenderer {
   public:
     FaceRenderer(Frame& frame, const FacePlan& plan, InOrder& order)
-        : frame_(frame), plan_(plan), order_(order), tile_rows_(Tile<Code>::rows_of(plan)) {}
+        : frame_(frame), plan_(plan), order_(order), tile_rows_(Tile<Code>::rows_of(frame.volume, plan)) {}
 
     void add(std::size_t band, const view::Band& cut) {
         const Rect rect = intersection(plan_.window(), plan_.turn(cut.rect));

@@ -29,7 +29,11 @@ class Tile {
     static constexpr int height = tallest_tile;  // at most
     // How high tiles of a face had best be. Where lines of the cache are turned, which lie across many
     // slices, a tile needs more of them than its own as rays move on sideways: the fewer, the higher it is.
-    static int rows_of(const FacePlan& plan) { return plan.face().axis == 0 ? height : height * 2 / 3; }
+    static int rows_of(const BrickVolume& volume, const FacePlan& plan) {
+        const int axis = plan.face().axis;
+        const bool turns = TileVoxels<Code>::turns(volume.level(plan.level()).best_for(axis), axis);
+        return turns ? height : height * 2 / 3;
+    }
 
     // All have to outlive it. The contents are those of the level's micro-bricks that may be seen.
     Tile(const BrickVolume& volume, const Classification& classification, std::span<const Content> contents,

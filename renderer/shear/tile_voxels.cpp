@@ -27,8 +27,7 @@ void VoxelRegion::add(const VoxelRegion& other) {
 
 template <class Code>
 TileVoxels<Code>::TileVoxels(const CodeVolume& volume, const FacePlan& plan)
-    : volume_(volume),
-      codes_(volume.codes<Code>()),
+    : codes_(volume.best_for(plan.face().axis)),
       axes_{plan.fast_axis(), plan.slow_axis(), plan.face().axis} {}
 
 template <class Code>
@@ -39,7 +38,7 @@ typename TileVoxels<Code>::Place TileVoxels<Code>::find(const VoxelRegion& regio
         for (std::size_t n = 0; n < 3; ++n) {
             at[static_cast<std::size_t>(axes_[n])] = region.lo[n];
         }
-        return {&codes_[volume_.offset(at)], volume_.stride(axes_[1]), volume_.stride(axes_[2])};
+        return {code_at(at), codes_.stride(axes_[1]), codes_.stride(axes_[2])};
     }
     if (std::ranges::none_of(copied_, [&](const VoxelRegion& part) { return part.contains(region); })) {
         turn(region, more);
@@ -57,7 +56,7 @@ Ahead TileVoxels<Code>::ahead(const VoxelRegion& region) const {
     }
     const auto count = [&](std::size_t n) { return static_cast<int>(region.hi[n] - region.lo[n] + 1); };
     const auto bytes = [](std::ptrdiff_t codes) { return codes * static_cast<std::ptrdiff_t>(sizeof(Code)); };
-    const auto* const first = reinterpret_cast<const char*>(&codes_[volume_.offset(at)]);
+    const auto* const first = reinterpret_cast<const char*>(code_at(at));
     const auto lines = [&](int codes) {
         const auto offset = static_cast<int>(reinterpret_cast<std::uintptr_t>(first) % cache_line);
         return (offset + codes * static_cast<int>(sizeof(Code)) + cache_line - 1) / cache_line;
@@ -66,8 +65,8 @@ Ahead TileVoxels<Code>::ahead(const VoxelRegion& region) const {
     const std::size_t row = turns() ? 0 : 1;
     const std::size_t plane = turns() ? 1 : 2;
     return {.first = first,
-            .row_stride = bytes(volume_.stride(axes_[row])),
-            .plane_stride = bytes(volume_.stride(axes_[plane])),
+            .row_stride = bytes(codes_.stride(axes_[row])),
+            .plane_stride = bytes(codes_.stride(axes_[plane])),
             .lines = lines(turns() ? count(2) : count(0)),
             .rows = count(row),
             .planes = count(plane)};
@@ -96,8 +95,8 @@ void TileVoxels<Code>::turn(const VoxelRegion& region, std::span<const VoxelRegi
     for (std::int64_t v = whole_.lo[1]; v <= whole_.hi[1]; ++v) {
         const VoxelRegion wanted = wanted_of_plane(v);
         const auto [f0, w0] = std::pair(wanted.lo[0], wanted.lo[2]);
-        shear::turn(Matrix<Code>{.first = &codes_[volume_.offset({w0, f0, v})],
-                                 .row_stride = volume_.stride(1),
+        shear::turn(Matrix<Code>{.first = code_at({w0, f0, v}),
+                                 .row_stride = codes_.stride(1),
                                  .columns = static_cast<int>(wanted.hi[2] - w0 + 1),
                                  .rows = static_cast<int>(wanted.hi[0] - f0 + 1)},
                     &copy_[static_cast<std::size_t>((f0 - whole_.lo[0]) + (v - whole_.lo[1]) * row_ +

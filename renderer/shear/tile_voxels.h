@@ -1,6 +1,6 @@
 #pragma once
 // Where a tile finds the voxels of a few planes across the principal axis: in the volume itself, or, where
-// voxels are adjacent along that axis, in a copy that is turned so that they are along the fast one.
+// its voxels are adjacent along that axis, in a copy that is turned so that they are along the fast one.
 
 #include <array>
 #include <cstdint>
@@ -29,7 +29,10 @@ class TileVoxels {
     TileVoxels(const CodeVolume& volume, const FacePlan& plan);
 
     // Whether they are turned, and fetched for that.
-    bool turns() const { return axes_[2] == 0; }
+    bool turns() const { return turns(codes_, axes_[2]); }
+    static bool turns(const CodeArray& codes, int principal_axis) {
+        return codes.adjacent_axis() == principal_axis;
+    }
     // Where the voxels of a region lie: that of plane w of the principal axis, first along the others, at
     // first + (w - region.lo[2]) * plane_stride, those along the fast axis adjacent.
     struct Place {
@@ -45,8 +48,11 @@ class TileVoxels {
     void turn(const VoxelRegion& region, std::span<const VoxelRegion> more);
     VoxelRegion wanted_of_plane(std::int64_t v) const;
 
-    const CodeVolume& volume_;
-    std::span<const Code> codes_;
+    const Code* code_at(const volume::Index3& node) const {
+        return &codes_.codes<Code>()[codes_.offset(node)];
+    }
+
+    const CodeArray& codes_;
     std::array<int, 3> axes_;
     std::vector<Code> copy_;
     std::vector<VoxelRegion> copied_;

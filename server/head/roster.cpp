@@ -121,6 +121,7 @@ void Roster::describe_work(tree::Place place, pb::Assign& assign) const {
     const tree::PlannedNode& node = plan_.at(place);
     *assign.mutable_box() = wire::to_wire(node.box);
     assign.set_bits(static_cast<std::uint32_t>(bits_));
+    assign.set_copies(static_cast<std::uint32_t>(cube_.copies));
     for (const tree::Place child : node.children) {
         pb::Child* const entry = assign.add_children();
         entry->set_place(static_cast<std::uint32_t>(child));

@@ -24,6 +24,7 @@ struct CubeFacts {
     std::int64_t plane = 0;
     view::Lattice lattice;
     int sketch_level = 0;  // of the sketch that is drawn until all is loaded (volume::sketch_level); 0: none
+    int copies = 1;        // of their codes that renderers keep
     wcs::Axes world;       // of its axes
 };
 
