@@ -212,6 +212,7 @@ TEST_F(Commands, MistakesGetOneLine) {
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --range 2 1", "range");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --spacing 1 0 1", "spacing");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --bits 12", "bits");
+    expect_mistake("snapshot " + cube_ + " -o " + png_ + " --copies 3", "copies");
     expect_mistake("snapshot " + cube_ + " -o " + png_ + " --lod some", "lod");
     const std::string snapshot = "snapshot " + cube_ + " -o " + png_;
     expect_mistake(snapshot + " --stereo blue", "stereo");

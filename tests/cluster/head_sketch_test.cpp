@@ -26,6 +26,7 @@ class HeadSketchTest : public testing::Test {
         cube.name = cube.path = "/cube";
         cube.lattice = {.n = n, .spacing = {1, 1, 1}};
         cube.sketch_level = level;
+        cube.copies = 2;
         head_.emplace(Roster(*tree::make_plan(*tree::full_tree(2, 2), n), std::move(cube), epoch, 8), limits);
         for (std::uint32_t place = 1; place <= 2; ++place) {
             join(place);
@@ -169,6 +170,7 @@ TEST_F(HeadSketchTest, IsOfOneLevelForAll) {
     ASSERT_THAT(assigned_, SizeIs(2));
     EXPECT_EQ(assigned_[0].sketch_level(), 1U);
     EXPECT_EQ(assigned_[1].sketch_level(), 1U);
+    EXPECT_EQ(assigned_[0].copies(), 2U);
 }
 
 TEST_F(HeadSketchTest, DescribesTheCubeByItsSketchAndThenByItself) {

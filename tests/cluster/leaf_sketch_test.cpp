@@ -137,6 +137,17 @@ TEST_F(LeafSketchTest, BeginsTheLoadWhereLimitsAreKnown) {
     EXPECT_EQ(loads_[0].sketch_level, 1);
 }
 
+TEST_F(LeafSketchTest, LoadsAnewWhereAnotherNumberOfCopiesIsAskedFor) {
+    assign(order(1, by_cube));
+    ASSERT_THAT(loads_, SizeIs(1));
+    EXPECT_EQ(loads_[0].share.copies, 1);
+    pb::Assign two = order(1, by_cube);
+    two.set_copies(2);
+    assign(two);
+    ASSERT_THAT(loads_, SizeIs(2));
+    EXPECT_EQ(loads_[1].share.copies, 2);
+}
+
 TEST_F(LeafSketchTest, IsToldToAParentThatComesLater) {
     assign(order(1));
     tell(Sketched{counts_[0].job, histogram()});

@@ -17,10 +17,12 @@ struct Case {
     int branching;
     int levels;
     volume::Index3 n;
+    int copies = 1;
 };
 
 void PrintTo(const Case& c, std::ostream* out) {
-    *out << c.branching << "," << c.levels << " over " << c.n[0] << "x" << c.n[1] << "x" << c.n[2];
+    *out << c.branching << "," << c.levels << " over " << c.n[0] << "x" << c.n[1] << "x" << c.n[2] << " in "
+         << c.copies << " copies";
 }
 
 class EveryTree : public testing::TestWithParam<Case> {};
@@ -36,6 +38,7 @@ TEST_P(EveryTree, GivesTheSamePicture) {
     deploy::LocalTree::Options options;
     options.cube.path = path;
     options.cube.range = {0, 2};
+    options.cube.copies = c.copies;
     options.tree.tree = {c.branching, c.levels};
     const link::Secret secret = link::Secret::random();
     auto tree = deploy::LocalTree::start(options, secret);
@@ -65,9 +68,9 @@ TEST_P(EveryTree, GivesTheSamePicture) {
 
 INSTANTIATE_TEST_SUITE_P(Trees, EveryTree,
                          testing::Values(Case{2, 2, {61, 47, 53}}, Case{2, 3, {37, 41, 43}},
-                                         Case{2, 4, {47, 31, 29}}, Case{3, 2, {31, 61, 37}},
-                                         Case{4, 2, {53, 29, 31}}, Case{5, 2, {23, 67, 33}},
-                                         Case{8, 2, {71, 19, 41}}));
+                                         Case{2, 3, {37, 41, 43}, 2}, Case{2, 4, {47, 31, 29}},
+                                         Case{3, 2, {31, 61, 37}}, Case{4, 2, {53, 29, 31}},
+                                         Case{5, 2, {23, 67, 33}}, Case{8, 2, {71, 19, 41}}));
 
 // Unequal shares, a compositor that is left out, 16 bits, a stretch and a spacing: still one picture.
 TEST(UnevenTree, GivesTheSamePicture) {
