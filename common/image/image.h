@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/base/check.h"
+#include "common/image/lit_blocks.h"
 #include "common/view/factorisation.h"
 
 namespace shearwater::image {
@@ -104,6 +105,7 @@ struct Window {
     int face = 0;  // index into Factorisation::faces
     Rect rect;
     Image<RgbaF> pixels;
+    LitBlocks lit{};  // of its pixels, where whoever filled them has noted it
 };
 
 }  // namespace shearwater::image

@@ -24,7 +24,7 @@ Layer::Layer(const view::Factorisation& factorisation, const Window& window)
     : window_(&window),
       face_(&factorisation.faces[static_cast<std::size_t>(window.face)]),
       silhouette_(factorisation, *face_),
-      lit_blocks_(std::max(window.rect.width(), 0), std::max(window.rect.height(), 0)),
+      own_lit_blocks_(std::max(window.rect.width(), 0), std::max(window.rect.height(), 0)),
       lit_pixels_(static_cast<std::size_t>(std::max(window.rect.height(), 0))),
       rows_(static_cast<std::size_t>(face_->height) + 3) {}
 
@@ -38,10 +38,7 @@ void Layer::take(const Rect& part, base::Workers& workers) {
     workers.for_each((filled.height() + rows_at_a_time - 1) / rows_at_a_time, [&](std::int64_t n) {
         const int begin = filled.y0 + static_cast<int>(n) * rows_at_a_time;
         for (int j = begin; j < std::min(begin + rows_at_a_time, filled.y1); ++j) {
-            const auto row = window_->pixels.row(j - rect.y0)
-                                 .subspan(static_cast<std::size_t>(filled.x0 - rect.x0),
-                                          static_cast<std::size_t>(filled.width()));
-            const Range range = lit_blocks_.note(filled.x0 - rect.x0, j - rect.y0, row);
+            const Range range = lit_of_row(j - rect.y0, {filled.x0 - rect.x0, filled.x1 - rect.x0});
             Range& lit = lit_pixels_[static_cast<std::size_t>(j - rect.y0)];
             lit = bounding(lit, {range.first + rect.x0, range.end + rect.x0});
         }
@@ -51,6 +48,17 @@ void Layer::take(const Rect& part, base::Workers& workers) {
         row = row_of_cells(j);
         lit_ = view::bounding(lit_, {row.lit.first, j, row.lit.end, j + 1});
     }
+}
+
+// Of the window's pixels.
+Range Layer::lit_of_row(int y, const Range& filled) {
+    if (!window_->lit.empty()) {
+        return window_->lit.lit_of(y, filled);
+    }
+    return own_lit_blocks_.note(
+        filled.first, y,
+        window_->pixels.row(y).subspan(static_cast<std::size_t>(filled.first),
+                                       static_cast<std::size_t>(filled.end - filled.first)));
 }
 
 CellRow Layer::row_of_cells(int j) const {

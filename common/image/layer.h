@@ -51,18 +51,20 @@ class Layer {
     // False only if the cells from one corner to another, inclusive, have nothing.
     bool any_lit(int i0, int j0, int i1, int j1) const {
         const Rect& rect = window_->rect;
-        return lit_blocks_.any({std::min(i0, i1) - 1 - rect.x0, std::min(j0, j1) - 1 - rect.y0,
-                                std::max(i0, i1) + 3 - rect.x0, std::max(j0, j1) + 3 - rect.y0});
+        return lit_blocks().any({std::min(i0, i1) - 1 - rect.x0, std::min(j0, j1) - 1 - rect.y0,
+                                 std::max(i0, i1) + 3 - rect.x0, std::max(j0, j1) + 3 - rect.y0});
     }
     static constexpr int rows_above = 2;
 
   private:
+    Range lit_of_row(int y, const Range& filled);
     CellRow row_of_cells(int j) const;
+    const LitBlocks& lit_blocks() const { return window_->lit.empty() ? own_lit_blocks_ : window_->lit; }
 
     const Window* window_;
     const view::Face* face_;
     Silhouette silhouette_;
-    LitBlocks lit_blocks_;
+    LitBlocks own_lit_blocks_;       // where the window has none
     std::vector<Range> lit_pixels_;  // of each of the window's rows, in the face's pixels
     std::vector<CellRow> rows_;
     Rect lit_;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
+
+#include "common/image/image.h"
 
 namespace shearwater::image {
 
@@ -44,27 +47,23 @@ bool seems_full(std::span<const RgbaF> pixels) {
     return true;
 }
 
-std::uint64_t bit(int n) {
-    return std::uint64_t{1} << n;
-}
-
 }  // namespace
 
 LitBlocks::LitBlocks(int width, int height)
     : width_(width),
       height_(height),
-      words_(static_cast<std::size_t>((width + block * bits - 1) / (block * bits))),
-      lit_(words_ * static_cast<std::size_t>(height)) {}
+      across_(static_cast<std::size_t>((width + block - 1) / block)),
+      lit_(across_ * static_cast<std::size_t>(height) + at_once) {}
 
-std::span<std::uint64_t> LitBlocks::row(int y) {
-    return std::span(lit_).subspan(static_cast<std::size_t>(y) * words_, words_);
+std::span<std::uint8_t> LitBlocks::row(int y) {
+    return std::span(lit_).subspan(static_cast<std::size_t>(y) * across_, across_);
 }
-std::span<const std::uint64_t> LitBlocks::row(int y) const {
-    return std::span(lit_).subspan(static_cast<std::size_t>(y) * words_, words_);
+std::span<const std::uint8_t> LitBlocks::row(int y) const {
+    return std::span(lit_).subspan(static_cast<std::size_t>(y) * across_, across_);
 }
 
 Range LitBlocks::note(int x, int y, std::span<const RgbaF> pixels) {
-    const Range part = lit_of(pixels);
+    const Range part = image::lit_of(pixels);
     if (part.empty()) {
         return {};
     }
@@ -72,15 +71,31 @@ Range LitBlocks::note(int x, int y, std::span<const RgbaF> pixels) {
     const auto lit =
         pixels.subspan(static_cast<std::size_t>(part.first), static_cast<std::size_t>(part.end - part.first));
     const bool full = seems_full(lit);
-    const auto words = row(y);
+    const auto blocks = row(y);
     for (int begin = range.first, end = 0; begin < range.end; begin = end) {
         end = std::min((begin / block + 1) * block, range.end);
         if (full || is_lit(lit.subspan(static_cast<std::size_t>(begin - range.first),
                                        static_cast<std::size_t>(end - begin)))) {
-            words[static_cast<std::size_t>(begin / block / bits)] |= bit(begin / block % bits);
+            blocks[static_cast<std::size_t>(begin / block)] = 1;
         }
     }
     return range;
+}
+
+Range LitBlocks::lit_of(int y, const Range& pixels) const {
+    if (pixels.empty()) {
+        return {};
+    }
+    const auto blocks = row(y);
+    int first = pixels.first / block, end = (pixels.end - 1) / block + 1;
+    while (first < end && blocks[static_cast<std::size_t>(first)] == 0) {
+        ++first;
+    }
+    while (first < end && blocks[static_cast<std::size_t>(end - 1)] == 0) {
+        --end;
+    }
+    return first < end ? Range{std::max(first * block, pixels.first), std::min(end * block, pixels.end)}
+                       : Range{};
 }
 
 bool LitBlocks::any(const Rect& rect) const {
@@ -88,13 +103,18 @@ bool LitBlocks::any(const Rect& rect) const {
     if (inside.empty()) {
         return false;
     }
-    const int first = inside.x0 / block, last = (inside.x1 - 1) / block;
-    for (int word = first / bits; word <= last / bits; ++word) {
-        constexpr std::uint64_t all = ~std::uint64_t{0};
-        const std::uint64_t asked = (word == first / bits ? all << first % bits : all) &
-                                    (word == last / bits ? all >> (bits - 1 - last % bits) : all);
-        for (int y = inside.y0; y < inside.y1; ++y) {
-            if ((row(y)[static_cast<std::size_t>(word)] & asked) != 0) {
+    // Eight bytes at a time: there are as many behind the last.
+    const int first = inside.x0 / block, end = (inside.x1 - 1) / block + 1;
+    for (int y = inside.y0; y < inside.y1; ++y) {
+        for (int n = first; n < end; n += at_once) {
+            std::uint64_t blocks = 0;
+            std::memcpy(&blocks, &lit_[static_cast<std::size_t>(y) * across_ + static_cast<std::size_t>(n)],
+                        at_once);
+            const int beyond = std::max(at_once - (end - n), 0);
+            const std::uint64_t asked = std::endian::native == std::endian::little
+                                            ? ~std::uint64_t{0} >> (8 * beyond)
+                                            : ~std::uint64_t{0} << (8 * beyond);
+            if ((blocks & asked) != 0) {
                 return true;
             }
         }

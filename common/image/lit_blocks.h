@@ -6,9 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "common/image/image.h"
+#include "common/view/factorisation.h"
 
 namespace shearwater::image {
+
+struct RgbaF;
+using view::Rect;
 
 // Half-open range of pixels or cells of a row.
 struct Range {
@@ -20,27 +23,35 @@ struct Range {
 class LitBlocks {
   public:
     LitBlocks() = default;
+    static constexpr int block = 16;
+
     // Of an image that is transparent so far.
     LitBlocks(int width, int height);
+    // Of no image.
+    bool empty() const { return lit_.empty(); }
 
     // Row y has these pixels from x on. Gives the least range, in the image's pixels, that holds all of them
-    // that are not transparent. Where nearly all seem to be so, none is left out of it. Rows may be noted by
-    // several threads.
+    // that are not transparent. Where nearly all seem to be so, none is left out of it. Several threads may
+    // note what has no block in common.
     Range note(int x, int y, std::span<const RgbaF> pixels);
 
+    // That a pixel of row y is lit.
+    void light(int x, int y) { row(y)[static_cast<std::size_t>(x / block)] = 1; }
+
+    // Holds all of row y's pixels of a range that are not transparent, by whole blocks.
+    Range lit_of(int y, const Range& pixels) const;
     // False only if all of the image's pixels in the rectangle are transparent.
     bool any(const Rect& rect) const;
 
   private:
-    static constexpr int block = 16;
-    static constexpr int bits = 64;
+    static constexpr int at_once = 8;  // blocks that are looked at
 
-    std::span<std::uint64_t> row(int y);
-    std::span<const std::uint64_t> row(int y) const;
+    std::span<std::uint8_t> row(int y);
+    std::span<const std::uint8_t> row(int y) const;
 
     int width_ = 0, height_ = 0;
-    std::size_t words_ = 0;  // a row
-    std::vector<std::uint64_t> lit_;
+    std::size_t across_ = 0;         // blocks a row
+    std::vector<std::uint8_t> lit_;  // a byte each
 };
 
 }  // namespace shearwater::image

@@ -1,7 +1,9 @@
 #include "renderer/shear/classification.h"
 
 #include <algorithm>
+#include <bit>
 #include <span>
+#include <utility>
 
 namespace shearwater::shear {
 
@@ -48,6 +50,14 @@ std::vector<Content> contents_of(const CodeVolume& codes, const Classification& 
     return contents;
 }
 
+bool is_sparse(std::span<const Content> contents) {
+    std::uint64_t opaque = 0;
+    for (const Content& content : contents) {
+        opaque += static_cast<std::uint64_t>(std::popcount(content.opaque_octants));
+    }
+    return SparseFaces::pay(opaque, 8 * contents.size());
+}
+
 }  // namespace
 
 Classification classify(const BrickVolume& volume, const view::TransferFunction& tf, view::Classify how,
@@ -59,7 +69,9 @@ Classification classify(const BrickVolume& volume, const view::TransferFunction&
         classification.segments.emplace(tf, codes, classification.table);
     }
     for (int level = 0; level < volume.levels(); ++level) {
-        classification.micro_bricks.push_back(contents_of(volume.level(level), classification, workers));
+        std::vector<Content> contents = contents_of(volume.level(level), classification, workers);
+        classification.is_sparse.push_back(!classification.segments && is_sparse(contents));
+        classification.micro_bricks.push_back(std::move(contents));
     }
     for (const CodeRange& range : classification.segments ? volume.reaches() : volume.bricks().ranges()) {
         classification.opaque.push_back(static_cast<std::uint8_t>(any_opacity(classification, range)));

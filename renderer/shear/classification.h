@@ -2,6 +2,7 @@
 // A transfer function applied to a volume: what an edit changes. Made once for many views.
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -9,17 +10,12 @@
 #include "common/view/factorisation.h"
 #include "common/view/transfer_function.h"
 #include "renderer/shear/brick_volume.h"
+#include "renderer/shear/octant_runs.h"
 #include "renderer/shear/opacity_table.h"
 #include "renderer/shear/segment_table.h"
+#include "renderer/shear/sparse_pieces.h"
 
 namespace shearwater::shear {
-
-// Of a micro-brick: what of it may have opacity, samples in it or segments that begin in it, and whether one
-// of the voxels between which they lie is blank.
-struct Content {
-    std::uint8_t opaque_octants = 0;  // a bit each, counted as Octants are
-    bool blanks = false;
-};
 
 struct Classification {
     OpacityTable table;
@@ -27,6 +23,9 @@ struct Classification {
     std::vector<std::vector<Content>>
         micro_bricks;                  // of each level, as CodeVolume::micro_bricks() counts them
     std::vector<std::uint8_t> opaque;  // as BrickVolume::bricks() does: whether one in it is not transparent
+    // Of each level, where pieces of what may be seen pay; found and copied when they are first drawn.
+    std::vector<bool> is_sparse;
+    std::unique_ptr<SparseFaces> sparse = std::make_unique<SparseFaces>();
 };
 
 Classification classify(const BrickVolume& volume, const view::TransferFunction& tf, view::Classify how,

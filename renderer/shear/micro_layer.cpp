@@ -8,10 +8,6 @@ namespace shearwater::shear {
 
 namespace {
 
-// So many octants and fewer are not worth going round: the kernel takes more pixels at a time than lie in
-// them.
-constexpr std::int64_t bridged = 4;
-
 // How many bits a byte has: processors that this has to run on may have no instruction for it.
 constexpr auto bits_of = [] {
     std::array<std::uint8_t, 256> bits{};
@@ -21,8 +17,8 @@ constexpr auto bits_of = [] {
     return bits;
 }();
 
-// How far a run of octants lies along the rays' way: in perspective all go away from the eye, so runs on one
-// side of it are in order of distance, and those on different sides are never on one ray.
+}  // namespace
+
 double distance(const FacePlan& plan, const CodeGrid& grid, int axis, const MicroRun& run) {
     const view::Factorisation& factorisation = plan.factorisation();
     const std::int64_t edge = CodeVolume::octant_edge << plan.level();
@@ -33,8 +29,6 @@ double distance(const FacePlan& plan, const CodeGrid& grid, int axis, const Micr
     }
     return std::max({0.0, lo - factorisation.eye[axis], factorisation.eye[axis] - hi});
 }
-
-}  // namespace
 
 MicroLayer::MicroLayer(const CodeVolume& codes, std::span<const Content> contents, const FacePlan& plan,
                        std::int64_t layer, const MicroRun& fast, const MicroRun& slow)
@@ -69,39 +63,20 @@ MicroLayer::MicroLayer(const CodeVolume& codes, std::span<const Content> content
     }
 }
 
-void MicroLayer::runs(const MicroRun& fast, std::int64_t slow, int half, std::vector<Run>& out) const {
-    out.clear();
+void MicroLayer::runs(const MicroRun& fast, std::int64_t slow, int half, std::vector<OctantRun>& out) const {
     // Of a micro-brick's octants the two that the row passes, one after the other.
     const auto near = static_cast<int>(slow % 2 << plan_.slow_axis() | half << plan_.face().axis);
     const int far = near | 1 << plan_.fast_axis();
-    const unsigned both = 1U << near | 1U << far;
     const Row& row = rows_[static_cast<std::size_t>(slow / 2 - first_row_)];
-    if ((row.opaque_octants & both) == 0) {
+    if ((row.opaque_octants & (1U << near | 1U << far)) == 0) {
+        out.clear();
         return;
     }
-    bool open = false;  // whether the last run may go on: no octant since was blank and not to be visited so
-    for (std::int64_t f = std::max(fast.first / 2, row.first); f < row.end && 2 * f < fast.end; ++f) {
-        const Content& content = at(f, slow / 2);
-        const Visit visit = content.blanks ? Visit::with_blanks : Visit::full;
-        if ((content.opaque_octants & both) == 0) {
-            open = open && (!content.blanks || out.back().visit == visit);
-            continue;
-        }
-        const MicroRun seen{std::max(fast.first, 2 * f + ((content.opaque_octants >> near & 1) != 0 ? 0 : 1)),
-                            std::min(fast.end, 2 * f + ((content.opaque_octants >> far & 1) != 0 ? 2 : 1))};
-        if (seen.first >= seen.end) {
-            continue;
-        }
-        if (open && out.back().visit == visit && seen.first - out.back().along.end <= bridged) {
-            out.back().along.end = seen.end;
-        } else {
-            out.push_back({seen, visit});
-        }
-        open = true;
-    }
+    const auto content_at = [&](std::int64_t f) -> const Content& { return at(f, slow / 2); };
+    find_runs(content_at, {row.first, row.end}, fast, near, far, out);
     if (out.size() > 1) {
         const int axis = plan_.fast_axis();
-        std::stable_sort(out.begin(), out.end(), [&](const Run& a, const Run& b) {
+        std::stable_sort(out.begin(), out.end(), [&](const OctantRun& a, const OctantRun& b) {
             return distance(plan_, grid_, axis, a.along) < distance(plan_, grid_, axis, b.along);
         });
     }

@@ -7,23 +7,9 @@
 
 #include "renderer/shear/classification.h"
 #include "renderer/shear/face_plan.h"
+#include "renderer/shear/octant_runs.h"
 
 namespace shearwater::shear {
-
-// Micro-bricks or octants [first, end) along an axis, counted from where the sub-volume's first micro-brick
-// begins.
-struct MicroRun {
-    std::int64_t first, end;
-    bool operator==(const MicroRun&) const = default;
-};
-
-// What to do with the samples in a part of a layer.
-enum class Visit {
-    none,         // nothing: none has opacity
-    full,         // all of them, or most, may have some, and no voxel is blank
-    with_blanks,  // so, but voxels may be blank
-    parts,        // it differs
-};
 
 class MicroLayer {
   public:
@@ -34,16 +20,9 @@ class MicroLayer {
 
     Visit visit() const { return visit_; }
 
-    // Octants of a row to visit alike. What is between two such and a little more work than going round it
-    // is visited with them.
-    struct Run {
-        MicroRun along;
-        Visit visit;
-        bool operator==(const Run&) const = default;
-    };
     // Those of a row of octants in the part, front to back; `half` is 0 for those nearer to the cube's first
     // plane.
-    void runs(const MicroRun& fast, std::int64_t slow, int half, std::vector<Run>& out) const;
+    void runs(const MicroRun& fast, std::int64_t slow, int half, std::vector<OctantRun>& out) const;
 
   private:
     const Content& at(std::int64_t fast, std::int64_t slow) const {
@@ -62,6 +41,10 @@ class MicroLayer {
     };
     std::vector<Row> rows_;
 };
+
+// How far a run of octants lies along the rays' way: in perspective all go away from the eye, so runs on one
+// side of it are in order of distance, and those on different sides are never on one ray.
+double distance(const FacePlan& plan, const CodeGrid& grid, int axis, const MicroRun& run);
 
 // Octants [first, end) along an in-plane axis in an order that is front to back along every ray.
 void front_to_back(const FacePlan& plan, const CodeGrid& grid, int axis, const MicroRun& range,

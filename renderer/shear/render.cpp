@@ -115,8 +115,12 @@ struct Part {
 template <class Code>
 class FaceRenderer {
   public:
-    FaceRenderer(Frame& frame, const FacePlan& plan, InOrder& order)
-        : frame_(frame), plan_(plan), order_(order), tile_rows_(Tile<Code>::rows_of(frame.volume, plan)) {}
+    FaceRenderer(Frame& frame, const SparsePieces<Code>* pieces, const FacePlan& plan, InOrder& order)
+        : frame_(frame),
+          pieces_(pieces),
+          plan_(plan),
+          order_(order),
+          tile_rows_(Tile<Code>::rows_of(frame.volume, plan)) {}
 
     void add(std::size_t band, const view::Band& cut) {
         const Rect rect = intersection(plan_.window(), plan_.turn(cut.rect));
@@ -150,8 +154,8 @@ class FaceRenderer {
             part.rect.x0 + static_cast<int>((n - part.first_tile) % part.across) * Tile<Code>::width;
         const int y = part.rect.y0 + static_cast<int>((n - part.first_tile) / part.across) * tile_rows_;
         auto tile = idle_.take([this] {
-            return std::make_unique<Tile<Code>>(frame_.volume, frame_.classification, frame_.contents, plan_,
-                                                frame_.met);
+            return std::make_unique<Tile<Code>>(frame_.volume, frame_.classification, frame_.contents,
+                                                pieces_, plan_, frame_.met);
         });
         const Rect rect = intersection(part.rect, {x, y, x + Tile<Code>::width, y + tile_rows_});
         if (tile->render(rect)) {
@@ -159,6 +163,7 @@ class FaceRenderer {
                 const Rect all = plan_.turn(part.rect);
                 part.window.rect = all;
                 part.window.pixels = image::Image<image::RgbaF>(all.width(), all.height(), image::Unfilled());
+                part.window.lit = image::LitBlocks(all.width(), all.height());
             });
             tile->store(part.window);
         } else {
@@ -187,6 +192,7 @@ class FaceRenderer {
     }
 
     Frame& frame_;
+    const SparsePieces<Code>* const pieces_;
     const FacePlan& plan_;
     InOrder& order_;
     const int tile_rows_;
@@ -204,6 +210,16 @@ RenderStats count(const Frame& frame) {
     return stats;
 }
 
+// Where there is little to be seen by the classification.
+template <class Code>
+const SparsePieces<Code>* pieces_of(const Frame& frame, const FacePlan& plan, base::Workers& workers) {
+    const auto level = static_cast<std::size_t>(plan.level());
+    const Classification& by = frame.classification;
+    return by.is_sparse[level] ? &by.sparse->pieces<Code>(frame.volume.level(plan.level()), plan.level(),
+                                                          by.micro_bricks[level], plan.face().axis, workers)
+                               : nullptr;
+}
+
 template <class Code>
 void render_faces(Frame& frame, const view::Factorisation& factorisation, std::span<const view::Band> bands,
                   base::Workers& workers, const OnBands& on_bands, const std::stop_token& stop) {
@@ -211,7 +227,7 @@ void render_faces(Frame& frame, const view::Factorisation& factorisation, std::s
     for (std::size_t band = 0; band < bands.size() && !stop.stop_requested();) {
         const int face = bands[band].face;
         const FacePlan plan(frame.volume, factorisation, face);
-        FaceRenderer<Code> renderer(frame, plan, order);
+        FaceRenderer<Code> renderer(frame, pieces_of<Code>(frame, plan, workers), plan, order);
         for (; band < bands.size() && bands[band].face == face; ++band) {
             renderer.add(band, bands[band]);
         }

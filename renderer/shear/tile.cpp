@@ -17,8 +17,9 @@ namespace {
 // of it where `open`. Neighbours' ranges meet.
 PixelRange pixels_within(const PixelRange& range, double offset, double scale, double lo, double hi,
                          bool open_lo, bool open_hi) {
+    const double pixels = 1 / scale;  // a voxel
     const auto boundary = [&](double voxel) {
-        return static_cast<int>(std::clamp(std::ceil((voxel - offset) / scale),
+        return static_cast<int>(std::clamp(std::ceil((voxel - offset) * pixels),
                                            static_cast<double>(range.first),
                                            static_cast<double>(range.last)));
     };
@@ -32,11 +33,15 @@ PixelRange pixels_within(const PixelRange& range, double offset, double scale, d
 
 template <class Code>
 Tile<Code>::Tile(const BrickVolume& volume, const Classification& classification,
-                 std::span<const Content> contents, const FacePlan& plan, BricksMet& met)
+                 std::span<const Content> contents, const SparsePieces<Code>* pieces, const FacePlan& plan,
+                 BricksMet& met)
     : bricks_(volume.bricks()),
       codes_(volume.level(plan.level())),
       classification_(classification),
       contents_(contents),
+      pieces_(pieces),
+      some_hidden_(contents.data() !=
+                   classification.micro_bricks[static_cast<std::size_t>(plan.level())].data()),
       nodes_(classification.segments ? codes_.box() : codes_.own()),
       plan_(plan),
       met_(met),
@@ -48,20 +53,27 @@ bool Tile<Code>::render(const Rect& rect) {
     rect_ = rect;
     begun_ = false;
     live_ = {0, 0, rect.width(), rect.height()};
-    // The slices of one layer of micro-bricks go together, as many as a slab takes.
+    // The slices of one layer of micro-bricks, or of the octants that pieces are of, go together, as many as
+    // a slab takes.
+    const std::int64_t edge = pieces_ != nullptr ? CodeVolume::octant_edge : CodeVolume::micro_edge;
     std::array<Slice<Code>, Slab<Code>::max_slices> slices;
     std::array<std::int64_t, Slab<Code>::max_slices> numbers;
     std::size_t count = 0;
     std::int64_t layer = -1;
     const auto flush = [&] {
+        const auto taken = Slices(slices).first(count);
+        const auto numbers_taken = std::span<const std::int64_t>(numbers).first(count);
         if (count > 0) {
-            render_slices(Slices(slices).first(count), std::span(numbers).first(count));
+            pieces_ != nullptr ? render_sparse(taken, numbers_taken) : render_slices(taken, numbers_taken);
         }
         count = 0;
     };
     for (std::int64_t n = 0; n < plan_.slice_count(); ++n) {
         const std::int64_t k = plan_.slice(n);
-        const std::int64_t layer_of_k = micro_layer(k);
+        const std::int64_t layer_of_k = layer_of(k, edge);
+        if (pieces_ != nullptr && !pieces_->any_in(layer_of_k)) {
+            continue;
+        }
         if (count == slices.size() || layer_of_k != layer) {
             flush();
             if (layer_of_k != layer && begun_) {
@@ -89,10 +101,21 @@ std::int64_t Tile<Code>::cell_of(std::int64_t k) const {
                     codes_.own().hi[static_cast<std::size_t>(plan_.face().axis)] - 1);
 }
 
-// Its layer, counted from the sub-volume's first.
+// Its layer of so many cells, counted from the sub-volume's first micro-brick on.
 template <class Code>
-std::int64_t Tile<Code>::micro_layer(std::int64_t k) const {
-    return cell_of(k) / CodeVolume::micro_edge - codes_.micro_bricks().first(plan_.face().axis);
+std::int64_t Tile<Code>::layer_of(std::int64_t k, std::int64_t edge) const {
+    return cell_of(k) / edge -
+           codes_.micro_bricks().first(plan_.face().axis) * (CodeVolume::micro_edge / edge);
+}
+
+// Which micro-bricks or octants, of that edge, a region is in, along the fast and the slow axis.
+template <class Code>
+std::array<MicroRun, 2> Tile<Code>::runs_of(const VoxelRegion& region, std::int64_t edge) const {
+    const auto run = [&](std::size_t n, int axis) {
+        const std::int64_t first = codes_.micro_bricks().first(axis) * CodeVolume::micro_edge;
+        return MicroRun{(region.lo[n] - first) / edge, (region.hi[n] - 1 - first) / edge + 1};
+    };
+    return {run(0, plan_.fast_axis()), run(1, plan_.slow_axis())};
 }
 
 // With the pixels of the tile that the sub-volume owns on it and that have light left, counted from the
@@ -115,15 +138,10 @@ Slice<Code> Tile<Code>::slice_of(std::int64_t k) const {
 // Slices that lie in one layer of micro-bricks, each with some pixels.
 template <class Code>
 void Tile<Code>::render_slices(Slices slices, std::span<const std::int64_t> numbers) {
-    const std::int64_t number = micro_layer(numbers.front());
-    const VoxelRegion region = region_of(slices, numbers, codes_.own());
-    const auto run = [&](std::size_t n, int axis, std::int64_t edge) {
-        const std::int64_t first = codes_.micro_bricks().first(axis) * CodeVolume::micro_edge;
-        return MicroRun{(region.lo[n] - first) / edge, (region.hi[n] - 1 - first) / edge + 1};
-    };
-    const int fast_axis = plan_.fast_axis(), slow_axis = plan_.slow_axis();
-    const MicroLayer layer(codes_, contents_, plan_, number, run(0, fast_axis, CodeVolume::micro_edge),
-                           run(1, slow_axis, CodeVolume::micro_edge));
+    const std::int64_t number = layer_of(numbers.front(), CodeVolume::micro_edge);
+    const VoxelRegion region = region_of(slices, numbers, nodes_of(codes_.own()));
+    const auto [fast_bricks, slow_bricks] = runs_of(region, CodeVolume::micro_edge);
+    const MicroLayer layer(codes_, contents_, plan_, number, fast_bricks, slow_bricks);
     if (layer.visit() == Visit::none) {
         return;
     }
@@ -135,8 +153,7 @@ void Tile<Code>::render_slices(Slices slices, std::span<const std::int64_t> numb
     const std::int64_t middle =
         (codes_.micro_bricks().first(plan_.face().axis) + number) * CodeVolume::micro_edge +
         CodeVolume::octant_edge;
-    const MicroRun fast = run(0, fast_axis, CodeVolume::octant_edge),
-                   slow = run(1, slow_axis, CodeVolume::octant_edge);
+    const auto [fast, slow] = runs_of(region, CodeVolume::octant_edge);
     for (std::size_t first = 0, end = 0; first < slices.size(); first = end) {
         const bool farther = cell_of(numbers[first]) >= middle;
         while (end < slices.size() && (cell_of(numbers[end]) >= middle) == farther) {
@@ -153,35 +170,41 @@ template <class Code>
 void Tile<Code>::render_octants(Slices slices, std::span<const std::int64_t> numbers, const MicroLayer& layer,
                                 int half, const MicroRun& fast, const MicroRun& slow) {
     front_to_back(plan_, codes_.micro_bricks(), plan_.slow_axis(), slow, octant_rows_);
-    pieces_.clear();
+    octant_pieces_.clear();
     runs_.clear();
     std::size_t first = 0;  // of the pieces of the last rows
     for (const std::int64_t row : octant_rows_) {
         layer.runs(fast, row, half, next_runs_);
         if (!next_runs_.empty() && next_runs_ == runs_ &&
-            (row == pieces_.back().rows.end || row == pieces_.back().rows.first - 1)) {
-            for (Piece& piece : std::span(pieces_).subspan(first)) {
-                piece.rows = {std::min(piece.rows.first, row), std::max(piece.rows.end, row + 1)};
+            (row == octant_pieces_.back().slow.end || row == octant_pieces_.back().slow.first - 1)) {
+            for (Piece& piece : std::span(octant_pieces_).subspan(first)) {
+                piece.slow = {std::min(piece.slow.first, row), std::max(piece.slow.end, row + 1)};
             }
             continue;
         }
-        first = pieces_.size();
-        for (const MicroLayer::Run& run : next_runs_) {
-            pieces_.push_back({run, {row, row + 1}});
+        first = octant_pieces_.size();
+        for (const OctantRun& run : next_runs_) {
+            octant_pieces_.push_back({run.along, {row, row + 1}, run.visit});
         }
         std::swap(runs_, next_runs_);
     }
-    for (const Piece& piece : pieces_) {
-        Fetching(voxels_.ahead(region_of(piece.run.along, piece.rows, numbers)), 1).step<Into::second>();
+    for (const Piece& piece : octant_pieces_) {
+        Fetching(voxels_.ahead(region_of(piece.fast, piece.slow, numbers)), 1).step<Into::second>();
     }
-    for (const Piece& piece : pieces_) {
-        render_piece(slices, numbers, piece, fast, slow);
+    for (const Piece& piece : octant_pieces_) {
+        const Part part = part_of(slices, numbers, piece, fast, slow);
+        if (part.count > 0) {
+            render_part(Slices(part.slices).first(part.count), std::span(part.numbers).first(part.count),
+                        piece.visit, false);
+        }
     }
 }
 
+// What of some slices lies in a piece; `fast` and `slow` are all octants beyond which there are no samples.
 template <class Code>
-void Tile<Code>::render_piece(Slices slices, std::span<const std::int64_t> numbers, const Piece& piece,
-                              const MicroRun& fast, const MicroRun& slow) {
+typename Tile<Code>::Part Tile<Code>::part_of(Slices slices, std::span<const std::int64_t> numbers,
+                                              const Piece& piece, const MicroRun& fast,
+                                              const MicroRun& slow) const {
     const auto within = [&](int axis, const PixelRange& pixels, double offset, double scale,
                             const MicroRun& octants, const MicroRun& all) {
         const std::int64_t first = codes_.micro_bricks().first(axis) * CodeVolume::micro_edge;
@@ -190,26 +213,22 @@ void Tile<Code>::render_piece(Slices slices, std::span<const std::int64_t> numbe
                              static_cast<double>(first + octants.end * CodeVolume::octant_edge),
                              octants.first == all.first, octants.end == all.end);
     };
-    std::array<Slice<Code>, Slab<Code>::max_slices> part;
-    std::array<std::int64_t, Slab<Code>::max_slices> part_numbers;
-    std::size_t count = 0;
+    Part part;
     for (std::size_t n = 0; n < slices.size(); ++n) {
         const Slice<Code>& slice = slices[n];
         const PixelRange columns =
             within(plan_.fast_axis(), {slice.pixels.x0, slice.pixels.x1},
-                   slice.fast_offset + slice.fast_scale * rect_.x0, slice.fast_scale, piece.run.along, fast);
+                   slice.fast_offset + slice.fast_scale * rect_.x0, slice.fast_scale, piece.fast, fast);
         const PixelRange rows =
             within(plan_.slow_axis(), {slice.pixels.y0, slice.pixels.y1},
-                   slice.slow_offset + slice.slow_scale * rect_.y0, slice.slow_scale, piece.rows, slow);
+                   slice.slow_offset + slice.slow_scale * rect_.y0, slice.slow_scale, piece.slow, slow);
         if (!columns.empty() && !rows.empty()) {
-            part[count] = slice;
-            part[count].pixels = {columns.first, rows.first, columns.last, rows.last};
-            part_numbers[count++] = numbers[n];
+            part.slices[part.count] = slice;
+            part.slices[part.count].pixels = {columns.first, rows.first, columns.last, rows.last};
+            part.numbers[part.count++] = numbers[n];
         }
     }
-    if (count > 0) {
-        render_part(Slices(part).first(count), std::span(part_numbers).first(count), piece.run.visit, false);
-    }
+    return part;
 }
 
 // Parts of slices to be visited alike. Where it is the whole of them, so will the next slices be.
@@ -222,17 +241,23 @@ void Tile<Code>::render_part(Slices slices, std::span<const std::int64_t> number
         render_segments(slices, numbers, visit, whole);
         return;
     }
-    const VoxelRegion region = region_of(slices, numbers, nodes_);
+    const VoxelRegion region = region_of(slices, numbers, nodes_of(nodes_));
     Slab<Code> slab = slab_of(slices, numbers, region, visit, whole);
+    if (composite(slices, numbers, slab)) {
+        note_met(region);
+    }
+}
+
+// False if no ray took a sample.
+template <class Code>
+bool Tile<Code>::composite(Slices slices, std::span<const std::int64_t> numbers, Slab<Code>& slab) {
     for (std::size_t n = 0; n < slices.size(); ++n) {
         Slice<Code>& slice = slab.slices[n];
         slice.lengths = lengths_on(numbers[n], slice.pixels, planes_->lengths[n]);
     }
     const std::uint64_t taken = composite_slab(slab, classification_.table, rays());
     samples_ += taken;
-    if (taken > 0) {
-        note_met(region);
-    }
+    return taken > 0;
 }
 
 // The slices with the region of voxels that their samples lie between.
@@ -240,12 +265,22 @@ template <class Code>
 Slab<Code> Tile<Code>::slab_of(Slices slices, std::span<const std::int64_t> numbers,
                                const VoxelRegion& region, Visit visit, bool whole) {
     const auto place = whole ? voxels_.find(region, block_of(region)) : voxels_.find(region, {});
+    Slab<Code> slab = slab_at(slices, numbers, region, visit, place);
+    if (whole && !voxels_.turns()) {
+        slab.ahead = voxels_.ahead(behind(region));
+    }
+    return slab;
+}
+
+template <class Code>
+Slab<Code> Tile<Code>::slab_at(Slices slices, std::span<const std::int64_t> numbers,
+                               const VoxelRegion& region, Visit visit, const VoxelPlace<Code>& place) const {
     Slab<Code> slab{.fast_first = region.lo[0],
                     .slow_first = region.lo[1],
                     .fast_cells = region.hi[0] - region.lo[0],
                     .slow_cells = region.hi[1] - region.lo[1],
                     .stride = place.row_stride,
-                    .ahead = whole && !voxels_.turns() ? voxels_.ahead(behind(region)) : Ahead{},
+                    .ahead = {},
                     .fast_pixel = rect_.x0,
                     .slow_pixel = rect_.y0,
                     .blanks = visit == Visit::with_blanks,

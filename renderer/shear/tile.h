@@ -35,15 +35,16 @@ class Tile {
         return turns ? height : height * 2 / 3;
     }
 
-    // All have to outlive it. The contents are those of the level's micro-bricks that may be seen.
+    // All have to outlive it. The contents are those of the level's micro-bricks that may be seen; the
+    // pieces, if there are, hold all of it that is not transparent.
     Tile(const BrickVolume& volume, const Classification& classification, std::span<const Content> contents,
-         const FacePlan& plan, BricksMet& met);
+         const SparsePieces<Code>* pieces, const FacePlan& plan, BricksMet& met);
 
     // Renders the pixels of a rectangle of at most width x height, from nothing. False if they have met
     // nothing.
     bool render(const view::Rect& rect);
-    // Copies what was rendered, something, to where it lies in the face's window; rays that are done as
-    // opaque.
+    // Copies what was rendered, something, to where it lies in the face's window, and notes what is lit; rays
+    // that are done as opaque. No other tile may have a part of a block of 16 pixels of a row.
     void store(image::Window& window);
     std::uint64_t samples() const { return samples_; }  // of all rectangles
 
@@ -57,28 +58,39 @@ class Tile {
         alignas(64) Plane entries, exits;  // of segments that end where a ray comes into the cube or goes out
     };
     using Slices = std::span<const Slice<Code>>;
-    struct Piece {  // a run of octants of some rows
-        MicroLayer::Run run;
-        MicroRun rows;
+    struct Part {  // of some slices
+        std::array<Slice<Code>, Slab<Code>::max_slices> slices;
+        std::array<std::int64_t, Slab<Code>::max_slices> numbers;
+        std::size_t count = 0;
     };
     using Block = std::array<VoxelRegion, 4>;  // parts of what is turned together
     class Segments;
 
     void begin_rays();
     std::int64_t cell_of(std::int64_t k) const;
-    std::int64_t micro_layer(std::int64_t k) const;
+    std::int64_t layer_of(std::int64_t k, std::int64_t edge) const;
     Slice<Code> slice_of(std::int64_t k) const;
+    std::array<MicroRun, 2> runs_of(const VoxelRegion& region, std::int64_t edge) const;
     void render_slices(Slices slices, std::span<const std::int64_t> numbers);
     void render_octants(Slices slices, std::span<const std::int64_t> numbers, const MicroLayer& layer,
                         int half, const MicroRun& fast, const MicroRun& slow);
-    void render_piece(Slices slices, std::span<const std::int64_t> numbers, const Piece& piece,
-                      const MicroRun& fast, const MicroRun& slow);
+    Part part_of(Slices slices, std::span<const std::int64_t> numbers, const Piece& piece,
+                 const MicroRun& fast, const MicroRun& slow) const;
+    void render_sparse(Slices slices, std::span<const std::int64_t> numbers);
+    bool is_seen(const Piece& piece, std::int64_t half_layer) const;
+    void find_seen(std::int64_t half_layer, const std::array<MicroRun, 2>& octants);
+    void fetch(const typename SparsePieces<Code>::Copied& copied, std::int64_t half_layer) const;
+    bool is_in_one_brick(const VoxelRegion& region) const;
+    bool composite(Slices slices, std::span<const std::int64_t> numbers, Slab<Code>& slab);
     void render_part(Slices slices, std::span<const std::int64_t> numbers, Visit visit, bool whole);
     void render_segments(Slices slices, std::span<const std::int64_t> numbers, Visit visit, bool whole);
     Slab<Code> slab_of(Slices slices, std::span<const std::int64_t> numbers, const VoxelRegion& region,
                        Visit visit, bool whole);
+    Slab<Code> slab_at(Slices slices, std::span<const std::int64_t> numbers, const VoxelRegion& region,
+                       Visit visit, const VoxelPlace<Code>& place) const;
+    VoxelRegion nodes_of(const volume::Box& box) const;
     VoxelRegion region_of(Slices slices, std::span<const std::int64_t> numbers,
-                          const volume::Box& within) const;
+                          const VoxelRegion& within) const;
     VoxelRegion region_of(const MicroRun& fast, const MicroRun& slow,
                           std::span<const std::int64_t> numbers) const;
     VoxelRegion between_planes(std::int64_t lo, std::int64_t hi) const;
@@ -93,6 +105,7 @@ class Tile {
     RayLengths lengths_in(Plane& plane) const {
         return {.first = plane.data(), .stride = stride, .x0 = rect_.x0, .y0 = rect_.y0};
     }
+    void store_row(int j, const view::Rgb* one_hue, image::Window& window, int x0, int y);
     void narrow_live();
     Rays rays();
     std::size_t slot(int i, int j) const {
@@ -103,6 +116,8 @@ class Tile {
     const CodeVolume& codes_;  // of the level that is drawn
     const Classification& classification_;
     std::span<const Content> contents_;
+    const SparsePieces<Code>* const pieces_;
+    const bool some_hidden_;    // of what the pieces have
     const volume::Box& nodes_;  // of the codes, that samples may lie between
     const FacePlan& plan_;
     BricksMet& met_;
@@ -115,8 +130,13 @@ class Tile {
     std::unique_ptr<Planes> planes_;
     // Kept from layer to layer for their memory.
     std::vector<std::int64_t> octant_rows_;
-    std::vector<MicroLayer::Run> runs_, next_runs_;
-    std::vector<Piece> pieces_;
+    std::vector<OctantRun> runs_, next_runs_;
+    std::vector<Piece> octant_pieces_;
+    struct Seen {
+        std::array<double, 3> distance;  // of its column, its rows and itself
+        const typename SparsePieces<Code>::Copied* copied;
+    };
+    std::vector<Seen> seen_;
 };
 
 extern template class Tile<std::uint8_t>;

@@ -1,6 +1,7 @@
 // What a tile's rays have gathered, and the lengths that their samples stand for.
 
 #include <algorithm>
+#include <bit>
 #include <functional>
 #include <utility>
 
@@ -110,6 +111,28 @@ void Tile<Code>::copy_steps(const Rect& pixels, Plane& to) const {
     }
 }
 
+// Row j, from pixel (x0, y) of the window on. What is transparent is told by its alpha, a block at a time.
+template <class Code>
+void Tile<Code>::store_row(int j, const view::Rgb* one_hue, image::Window& window, int x0, int y) {
+    constexpr int block = image::LitBlocks::block;
+    const auto row = window.pixels.row(y).subspan(static_cast<std::size_t>(x0));
+    for (int i = 0; i < rect_.width(); i += block) {
+        const int count = std::min(block, rect_.width() - i);
+        const auto out = row.subspan(static_cast<std::size_t>(i), static_cast<std::size_t>(count));
+        const float* const a = &planes_->a[static_cast<std::size_t>(j * stride + i)];
+        std::uint32_t lit = 0;
+        for (int n = 0; n < count; ++n) {
+            lit |= std::bit_cast<std::uint32_t>(a[n]);
+        }
+        if (lit == 0) {
+            std::ranges::fill(out, image::RgbaF{});
+        } else {
+            pixels_of(rays(), j * stride + i, one_hue, out);
+            window.lit.light(x0 + i, y);
+        }
+    }
+}
+
 template <class Code>
 void Tile<Code>::store(image::Window& window) {
     const OpacityTable& table = classification_.table;
@@ -121,8 +144,7 @@ void Tile<Code>::store(image::Window& window) {
     const Rays gathered = rays();
     if (!plan_.turned()) {
         for (int j = 0; j < rect_.height(); ++j) {
-            pixels_of(gathered, j * stride, one_hue,
-                      window.pixels.row(y0 + j).subspan(static_cast<std::size_t>(x0), across));
+            store_row(j, one_hue, window, x0, y0 + j);
         }
         return;
     }
@@ -142,6 +164,11 @@ void Tile<Code>::store(image::Window& window) {
             }
         }
     }
+    for (int y = y0; y < y0 + rect_.width(); ++y) {
+        window.lit.note(x0, y,
+                        window.pixels.row(y).subspan(static_cast<std::size_t>(x0),
+                                                     static_cast<std::size_t>(rect_.height())));
+    }
 }
 
 template void Tile<std::uint8_t>::begin_rays();
@@ -149,12 +176,14 @@ template void Tile<std::uint8_t>::narrow_live();
 template Rays Tile<std::uint8_t>::rays();
 template const float* Tile<std::uint8_t>::lengths_on(std::int64_t, const Rect&, Plane&);
 template void Tile<std::uint8_t>::copy_steps(const Rect&, Plane&) const;
+template void Tile<std::uint8_t>::store_row(int, const view::Rgb*, image::Window&, int, int);
 template void Tile<std::uint8_t>::store(image::Window&);
 template void Tile<std::uint16_t>::begin_rays();
 template void Tile<std::uint16_t>::narrow_live();
 template Rays Tile<std::uint16_t>::rays();
 template const float* Tile<std::uint16_t>::lengths_on(std::int64_t, const Rect&, Plane&);
 template void Tile<std::uint16_t>::copy_steps(const Rect&, Plane&) const;
+template void Tile<std::uint16_t>::store_row(int, const view::Rgb*, image::Window&, int, int);
 template void Tile<std::uint16_t>::store(image::Window&);
 
 }  // namespace shearwater::shear

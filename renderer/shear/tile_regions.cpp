@@ -22,11 +22,22 @@ std::pair<double, double> ends_of(double offset, double scale, int first, int en
 
 }  // namespace
 
-// The voxels that the samples of some slices lie between, of those in `box`.
+// All nodes of a box.
+template <class Code>
+VoxelRegion Tile<Code>::nodes_of(const volume::Box& box) const {
+    const std::array<int, 3> axes{plan_.fast_axis(), plan_.slow_axis(), plan_.face().axis};
+    VoxelRegion region;
+    for (std::size_t n = 0; n < axes.size(); ++n) {
+        region.lo[n] = box.lo[static_cast<std::size_t>(axes[n])];
+        region.hi[n] = box.hi[static_cast<std::size_t>(axes[n])];
+    }
+    return region;
+}
+
+// The voxels that the samples of some slices lie between, of those `within`.
 template <class Code>
 VoxelRegion Tile<Code>::region_of(Slices slices, std::span<const std::int64_t> numbers,
-                                  const volume::Box& box) const {
-    const std::array<int, 3> axes{plan_.fast_axis(), plan_.slow_axis(), plan_.face().axis};
+                                  const VoxelRegion& within) const {
     std::array<std::pair<double, double>, 3> ends;
     ends.fill({1e300, -1e300});
     const auto add = [](std::pair<double, double>& to, const std::pair<double, double>& more) {
@@ -44,14 +55,13 @@ VoxelRegion Tile<Code>::region_of(Slices slices, std::span<const std::int64_t> n
     }
     VoxelRegion region;
     for (std::size_t n = 0; n < 3; ++n) {
-        const std::int64_t lo = box.lo[static_cast<std::size_t>(axes[n])];
-        const std::int64_t hi = box.hi[static_cast<std::size_t>(axes[n])];
+        const std::int64_t lo = within.lo[n], hi = within.hi[n];
         region.lo[n] = std::clamp(static_cast<std::int64_t>(std::floor(ends[n].first)), lo, hi - 1);
         region.hi[n] = std::clamp(static_cast<std::int64_t>(std::floor(ends[n].second)) + 1, lo + 1, hi);
     }
     // A slice on a plane needs none behind it.
-    region.hi[2] = std::clamp(static_cast<std::int64_t>(std::ceil(ends[2].second)), region.lo[2],
-                              box.hi[static_cast<std::size_t>(axes[2])]);
+    region.hi[2] =
+        std::clamp(static_cast<std::int64_t>(std::ceil(ends[2].second)), region.lo[2], within.hi[2]);
     return region;
 }
 
@@ -126,15 +136,17 @@ VoxelRegion Tile<Code>::behind(const VoxelRegion& region) const {
     return between_planes(plane(region.lo[2]), plane(region.hi[2]));
 }
 
+template VoxelRegion Tile<std::uint8_t>::nodes_of(const volume::Box&) const;
 template VoxelRegion Tile<std::uint8_t>::region_of(Slices, std::span<const std::int64_t>,
-                                                   const volume::Box&) const;
+                                                   const VoxelRegion&) const;
 template VoxelRegion Tile<std::uint8_t>::region_of(const MicroRun&, const MicroRun&,
                                                    std::span<const std::int64_t>) const;
 template VoxelRegion Tile<std::uint8_t>::between_planes(std::int64_t, std::int64_t) const;
 template Tile<std::uint8_t>::Block Tile<std::uint8_t>::block_of(const VoxelRegion&) const;
 template VoxelRegion Tile<std::uint8_t>::behind(const VoxelRegion&) const;
+template VoxelRegion Tile<std::uint16_t>::nodes_of(const volume::Box&) const;
 template VoxelRegion Tile<std::uint16_t>::region_of(Slices, std::span<const std::int64_t>,
-                                                    const volume::Box&) const;
+                                                    const VoxelRegion&) const;
 template VoxelRegion Tile<std::uint16_t>::region_of(const MicroRun&, const MicroRun&,
                                                     std::span<const std::int64_t>) const;
 template VoxelRegion Tile<std::uint16_t>::between_planes(std::int64_t, std::int64_t) const;

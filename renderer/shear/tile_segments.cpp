@@ -98,7 +98,8 @@ void Tile<Code>::render_segments(Slices slices, std::span<const std::int64_t> nu
         const auto count = static_cast<std::size_t>(slab.samples.count);
         const Slices ends = Slices(slab.samples.slices).first(count);
         const auto numbers_of_ends = std::span<const std::int64_t>(segments.numbers).first(count);
-        slab.samples = slab_of(ends, numbers_of_ends, region_of(ends, numbers_of_ends, nodes_), visit, whole);
+        slab.samples =
+            slab_of(ends, numbers_of_ends, region_of(ends, numbers_of_ends, nodes_of(nodes_)), visit, whole);
         taken += composite_segments(slab, *classification_.segments, rays());
         segments.clear();
     };
@@ -111,7 +112,7 @@ void Tile<Code>::render_segments(Slices slices, std::span<const std::int64_t> nu
     flush();
     samples_ += taken;
     if (taken > 0) {
-        note_met(region_of(slices, numbers, codes_.own()));
+        note_met(region_of(slices, numbers, nodes_of(codes_.own())));
     }
 }
 

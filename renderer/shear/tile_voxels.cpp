@@ -31,8 +31,7 @@ TileVoxels<Code>::TileVoxels(const CodeVolume& volume, const FacePlan& plan)
       axes_{plan.fast_axis(), plan.slow_axis(), plan.face().axis} {}
 
 template <class Code>
-typename TileVoxels<Code>::Place TileVoxels<Code>::find(const VoxelRegion& region,
-                                                        std::span<const VoxelRegion> more) {
+VoxelPlace<Code> TileVoxels<Code>::find(const VoxelRegion& region, std::span<const VoxelRegion> more) {
     if (!turns()) {
         volume::Index3 at;
         for (std::size_t n = 0; n < 3; ++n) {

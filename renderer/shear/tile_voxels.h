@@ -10,17 +10,9 @@
 #include "renderer/shear/code_volume.h"
 #include "renderer/shear/face_plan.h"
 #include "renderer/shear/kernel.h"
+#include "renderer/shear/voxel_region.h"
 
 namespace shearwater::shear {
-
-// Nodes of the level that is drawn, from lo to hi, both included, along a face's fast, slow and principal
-// axes.
-struct VoxelRegion {
-    std::array<std::int64_t, 3> lo, hi;
-
-    bool contains(const VoxelRegion& inner) const;
-    void add(const VoxelRegion& other);  // so that it contains that too
-};
 
 template <class Code>
 class TileVoxels {
@@ -33,14 +25,8 @@ class TileVoxels {
     static bool turns(const CodeArray& codes, int principal_axis) {
         return codes.adjacent_axis() == principal_axis;
     }
-    // Where the voxels of a region lie: that of plane w of the principal axis, first along the others, at
-    // first + (w - region.lo[2]) * plane_stride, those along the fast axis adjacent.
-    struct Place {
-        const Code* first;
-        std::ptrdiff_t row_stride, plane_stride;
-    };
     // `more` is what may be asked for next: where voxels have to be turned, all of it is.
-    Place find(const VoxelRegion& region, std::span<const VoxelRegion> more);
+    VoxelPlace<Code> find(const VoxelRegion& region, std::span<const VoxelRegion> more);
     // What of the volume a region will take to find.
     Ahead ahead(const VoxelRegion& region) const;
 

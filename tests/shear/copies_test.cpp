@@ -74,13 +74,13 @@ TEST(Copies, AreNotMadeOnceStopped) {
     EXPECT_EQ(kept.error().code, base::Code::cancelled);
 }
 
-struct Taking {
+struct CopiesDrawn {
     int bits = 8;
     view::Sampling sampling{};
     view::ImageSize size{90, 70};
 };
 
-void expect_same_pictures(FloatCube& cube, const Taking& taking) {
+void expect_as_of_one_copy(FloatCube& cube, const CopiesDrawn& taking) {
     base::Workers workers;
     const view::Lattice lattice{cube.n(), {1, 1.3, 0.8}};
     const volume::Mapping mapping{.bits = taking.bits};
@@ -111,9 +111,9 @@ void expect_same_pictures(FloatCube& cube, const Taking& taking) {
 TEST(Copies, GiveTheSamePictures) {
     FloatCube cube = spotted_cube({131, 67, 97});
     for (const int bits : {8, 16}) {
-        expect_same_pictures(cube, {.bits = bits});
-        expect_same_pictures(cube, {.bits = bits, .sampling = {.classify = view::Classify::pre_integrated}});
-        expect_same_pictures(cube, {.bits = bits, .sampling = {.level_of_detail = true}, .size = {41, 31}});
+        expect_as_of_one_copy(cube, {.bits = bits});
+        expect_as_of_one_copy(cube, {.bits = bits, .sampling = {.classify = view::Classify::pre_integrated}});
+        expect_as_of_one_copy(cube, {.bits = bits, .sampling = {.level_of_detail = true}, .size = {41, 31}});
     }
 }
 
