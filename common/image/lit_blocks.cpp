@@ -11,7 +11,7 @@ namespace shearwater::image {
 
 namespace {
 
-bool is_lit(std::span<const RgbaF> pixels) {
+bool has_light(std::span<const RgbaF> pixels) {
     std::uint64_t bits = 0;
     for (const RgbaF& pixel : pixels) {
         const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(pixel);
@@ -24,12 +24,12 @@ bool is_lit(std::span<const RgbaF> pixels) {
 Range lit_of(std::span<const RgbaF> row) {
     std::size_t begin = 0, end = row.size();
     for (const std::size_t block : {std::size_t{16}, std::size_t{1}}) {
-        while (begin + block <= end && !is_lit(row.subspan(begin, block))) {
+        while (begin + block <= end && !has_light(row.subspan(begin, block))) {
             begin += block;
         }
     }
     for (const std::size_t block : {std::size_t{16}, std::size_t{1}}) {
-        while (begin + block <= end && !is_lit(row.subspan(end - block, block))) {
+        while (begin + block <= end && !has_light(row.subspan(end - block, block))) {
             end -= block;
         }
     }
@@ -40,7 +40,7 @@ Range lit_of(std::span<const RgbaF> row) {
 bool seems_full(std::span<const RgbaF> pixels) {
     constexpr std::size_t looks = 6;
     for (std::size_t n = 0; n < looks; ++n) {
-        if (!is_lit(pixels.subspan(n * pixels.size() / looks, 1))) {
+        if (!has_light(pixels.subspan(n * pixels.size() / looks, 1))) {
             return false;
         }
     }
@@ -74,8 +74,8 @@ Range LitBlocks::note(int x, int y, std::span<const RgbaF> pixels) {
     const auto blocks = row(y);
     for (int begin = range.first, end = 0; begin < range.end; begin = end) {
         end = std::min((begin / block + 1) * block, range.end);
-        if (full || is_lit(lit.subspan(static_cast<std::size_t>(begin - range.first),
-                                       static_cast<std::size_t>(end - begin)))) {
+        if (full || has_light(lit.subspan(static_cast<std::size_t>(begin - range.first),
+                                          static_cast<std::size_t>(end - begin)))) {
             blocks[static_cast<std::size_t>(begin / block)] = 1;
         }
     }

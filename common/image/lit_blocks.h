@@ -38,6 +38,9 @@ class LitBlocks {
     // That a pixel of row y is lit.
     void light(int x, int y) { row(y)[static_cast<std::size_t>(x / block)] = 1; }
 
+    // False only if the block of 16 that pixel x of row y is in is transparent.
+    bool is_lit(int x, int y) const { return row(y)[static_cast<std::size_t>(x / block)] != 0; }
+
     // Holds all of row y's pixels of a range that are not transparent, by whole blocks.
     Range lit_of(int y, const Range& pixels) const;
     // False only if all of the image's pixels in the rectangle are transparent.

@@ -33,6 +33,7 @@ bool seen(const RgbaF& pixel) {
 
 // So many pixels are looked at together; a gap between spans is at least as wide.
 constexpr std::size_t block = 8;
+static_assert(LitBlocks::block % block == 0);
 
 bool any_seen(std::span<const RgbaF> pixels) {
     std::uint64_t bits = 0;  // most blocks have none, and that is told soonest
@@ -51,12 +52,13 @@ std::span<const RgbaF> block_at(std::span<const RgbaF> row, std::size_t at) {
 struct Stretch16 {
     std::size_t begin, end, next_block;
 };
-Stretch16 next_stretch(std::span<const RgbaF> row, std::size_t from) {
-    while (from < row.size() && !any_seen(block_at(row, from))) {
+template <class SeenAt>
+Stretch16 next_stretch(std::span<const RgbaF> row, std::size_t from, const SeenAt& any_seen_at) {
+    while (from < row.size() && !any_seen_at(from)) {
         from += block;
     }
     std::size_t to = from;
-    while (to < row.size() && any_seen(block_at(row, to))) {
+    while (to < row.size() && any_seen_at(to)) {
         to += block;
     }
     Stretch16 stretch{from, std::min(to, row.size()), to};
@@ -69,10 +71,16 @@ Stretch16 next_stretch(std::span<const RgbaF> row, std::size_t from) {
     return stretch;
 }
 
-void encode_row(std::span<const RgbaF> row, int x0, SpanWriter& writer) {
+void encode_row(const Window& window, int y, SpanWriter& writer) {
+    const auto row = window.pixels.row(y);
+    const int x0 = window.rect.x0;
+    const auto any_seen_at = [&](std::size_t at) {
+        return (window.lit.empty() || window.lit.is_lit(static_cast<int>(at), y)) &&
+               any_seen(block_at(row, at));
+    };
     writer.begin_row();
     for (std::size_t from = 0; from < row.size();) {
-        const Stretch16 stretch = next_stretch(row, from);
+        const Stretch16 stretch = next_stretch(row, from, any_seen_at);
         if (stretch.begin < stretch.end) {
             const auto pixels = row.subspan(stretch.begin, stretch.end - stretch.begin);
             to_16_bits(pixels,
@@ -97,7 +105,7 @@ SpanWindow encode_spans(const Window& window, std::span<std::byte> out) {
     SpanWriter writer(out);
     std::size_t end = 0;  // of the last row that has something
     for (int y = rect.y0; y < rect.y1; ++y) {
-        encode_row(window.pixels.row(y - rect.y0), rect.x0, writer);
+        encode_row(window, y - rect.y0, writer);
         if (!writer.row_empty()) {
             full = bounding(full, {writer.row_first(), y, writer.row_last(), y + 1});
             end = writer.written();

@@ -1,5 +1,7 @@
 #include "renderer/shear/ray_pixels.h"
 
+#include <hwy/cache_control.h>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "renderer/shear/ray_pixels.cpp"
 #include <hwy/foreach_target.h>
@@ -51,6 +53,17 @@ void put_rays(const Rays& rays, std::ptrdiff_t first, const float* hue, std::spa
     }
 }
 
+// Pixels begin where four floats do, and not always where a longer vector does.
+void clear(std::span<image::RgbaF> out) {
+    const hn::CappedTag<float, 4> d;
+    const auto zero = hn::Zero(d);
+    for (image::RgbaF& pixel : out) {
+        for (std::size_t n = 0; n < 4; n += hn::Lanes(d)) {
+            hn::Stream(zero, d, &pixel.r + n);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace shearwater::shear::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -59,6 +72,15 @@ HWY_AFTER_NAMESPACE();
 namespace shearwater::shear {
 
 HWY_EXPORT(put_rays);
+HWY_EXPORT(clear);
+
+void clear_pixels(std::span<image::RgbaF> out) {
+    HWY_DYNAMIC_DISPATCH(clear)(out);
+}
+
+void flush_cleared() {
+    hwy::FlushStream();
+}
 
 void pixels_of(const Rays& rays, std::ptrdiff_t first, const view::Rgb* hue, std::span<image::RgbaF> out) {
     if (hue == nullptr) {

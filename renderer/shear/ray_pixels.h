@@ -15,4 +15,9 @@ namespace shearwater::shear {
 // would be darker than its neighbours, and another sub-volume's light would shine through.
 void pixels_of(const Rays& rays, std::ptrdiff_t first, const view::Rgb* hue, std::span<image::RgbaF> out);
 
+// Makes pixels transparent, past the caches: most of a window may be so, is not looked at again, and would
+// have to be fetched from whichever processor had it last. Others may read them after flush_cleared().
+void clear_pixels(std::span<image::RgbaF> out);
+void flush_cleared();
+
 }  // namespace shearwater::shear

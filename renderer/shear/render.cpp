@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <atomic>
 #include <deque>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <numeric>
 #include <optional>
+#include <thread>
 
 #include "renderer/shear/face_plan.h"
+#include "renderer/shear/ray_pixels.h"
 #include "renderer/shear/seen.h"
 #include "renderer/shear/tile.h"
 
@@ -28,32 +31,27 @@ struct Frame {
     std::uint64_t samples = 0;
 };
 
-// Tiles that wait for a thread to need one again.
+// One for each thread, which finds what it needs of it in its own cache.
 template <class Code>
-class IdleTiles {
+class TilesOfThreads {
   public:
     template <class Make>
-    std::unique_ptr<Tile<Code>> take(const Make& make) {
+    Tile<Code>& mine(const Make& make) {
         const std::lock_guard lock(mutex_);
-        if (tiles_.empty()) {
-            return make();
+        std::unique_ptr<Tile<Code>>& tile = tiles_[std::this_thread::get_id()];
+        if (!tile) {
+            tile = make();
         }
-        auto tile = std::move(tiles_.back());
-        tiles_.pop_back();
-        return tile;
-    }
-    void give_back(std::unique_ptr<Tile<Code>> tile) {
-        const std::lock_guard lock(mutex_);
-        tiles_.push_back(std::move(tile));
+        return *tile;
     }
     std::uint64_t samples() const {
         return std::accumulate(tiles_.begin(), tiles_.end(), std::uint64_t{0},
-                               [](std::uint64_t sum, const auto& tile) { return sum + tile->samples(); });
+                               [](std::uint64_t sum, const auto& of) { return sum + of.second->samples(); });
     }
 
   private:
     std::mutex mutex_;
-    std::vector<std::unique_ptr<Tile<Code>>> tiles_;
+    std::map<std::thread::id, std::unique_ptr<Tile<Code>>> tiles_;
 };
 
 // Tells of bands in their order, whichever thread it is that draws the last of one.
@@ -143,7 +141,7 @@ class FaceRenderer {
         order_.tell();  // where there is nothing
         workers.for_each(
             tiles_, [this](std::int64_t n) { paint(n); }, stop);
-        frame_.samples += idle_.samples();
+        frame_.samples += tiles_of_threads_.samples();
     }
 
   private:
@@ -153,24 +151,23 @@ class FaceRenderer {
         const int x =
             part.rect.x0 + static_cast<int>((n - part.first_tile) % part.across) * Tile<Code>::width;
         const int y = part.rect.y0 + static_cast<int>((n - part.first_tile) / part.across) * tile_rows_;
-        auto tile = idle_.take([this] {
+        Tile<Code>& tile = tiles_of_threads_.mine([this] {
             return std::make_unique<Tile<Code>>(frame_.volume, frame_.classification, frame_.contents,
                                                 pieces_, plan_, frame_.met);
         });
         const Rect rect = intersection(part.rect, {x, y, x + Tile<Code>::width, y + tile_rows_});
-        if (tile->render(rect)) {
+        if (tile.render(rect)) {
             std::call_once(part.begun, [&] {
                 const Rect all = plan_.turn(part.rect);
                 part.window.rect = all;
                 part.window.pixels = image::Image<image::RgbaF>(all.width(), all.height(), image::Unfilled());
                 part.window.lit = image::LitBlocks(all.width(), all.height());
             });
-            tile->store(part.window);
+            tile.store(part.window);
         } else {
             const std::lock_guard lock(part.mutex);
             part.clear.push_back(plan_.turn(rect));
         }
-        idle_.give_back(std::move(tile));
         if (part.tiles_left.fetch_sub(1) == 1) {
             if (!part.window.rect.empty()) {
                 for (const Rect& without : part.clear) {
@@ -187,8 +184,9 @@ class FaceRenderer {
             const auto row = window.pixels.row(y - window.rect.y0)
                                  .subspan(static_cast<std::size_t>(rect.x0 - window.rect.x0),
                                           static_cast<std::size_t>(rect.width()));
-            std::ranges::fill(row, image::RgbaF{});
+            clear_pixels(row);
         }
+        flush_cleared();
     }
 
     Frame& frame_;
@@ -196,7 +194,7 @@ class FaceRenderer {
     const FacePlan& plan_;
     InOrder& order_;
     const int tile_rows_;
-    IdleTiles<Code> idle_;
+    TilesOfThreads<Code> tiles_of_threads_;
     std::deque<Part> parts_;
     std::int64_t tiles_ = 0;
 };

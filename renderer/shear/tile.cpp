@@ -319,7 +319,8 @@ void Tile<Code>::note_met(const VoxelRegion& region) {
         for (at[1] = first[1]; at[1] <= last[1]; ++at[1]) {
             for (at[0] = first[0]; at[0] <= last[0]; ++at[0]) {
                 const std::size_t brick = bricks_.index(at);
-                if (classification_.opaque[brick] != 0) {
+                // Written once: what all threads write to, they would pass to and fro.
+                if (classification_.opaque[brick] != 0 && met_[brick].load(std::memory_order_relaxed) == 0) {
                     met_[brick].store(1, std::memory_order_relaxed);
                 }
             }

@@ -125,7 +125,7 @@ void Tile<Code>::store_row(int j, const view::Rgb* one_hue, image::Window& windo
             lit |= std::bit_cast<std::uint32_t>(a[n]);
         }
         if (lit == 0) {
-            std::ranges::fill(out, image::RgbaF{});
+            clear_pixels(out);
         } else {
             pixels_of(rays(), j * stride + i, one_hue, out);
             window.lit.light(x0 + i, y);
@@ -146,6 +146,7 @@ void Tile<Code>::store(image::Window& window) {
         for (int j = 0; j < rect_.height(); ++j) {
             store_row(j, one_hue, window, x0, y0 + j);
         }
+        flush_cleared();
         return;
     }
     // As many rows at a time as lie side by side in a line of the cache.
