@@ -49,7 +49,25 @@ void finish(std::span<const RgbaF> from, const Background& background, std::span
     const hn::CappedTag<float, 16> wide;
     const hn::FixedTag<float, 4> one;
     const std::size_t step = hn::Lanes(wide) / 4;
+    // Most of a picture may be empty, and is told by whole blocks.
+    constexpr std::size_t block = 16;
+    Rgba8 empty{0, 0, 0, 255};
+    alignas(16) static constexpr float nothing[4] = {0, 0, 0, 0};
+    finish_some(one, nothing, background, &empty.r);
     std::size_t n = 0;
+    for (; n + block <= from.size(); n += block) {
+        auto any = hn::Zero(wide);
+        for (std::size_t m = 0; m < block; m += step) {
+            any = hn::Or(any, hn::LoadU(wide, &from[n + m].r));
+        }
+        if (hn::AllTrue(wide, hn::Eq(any, hn::Zero(wide)))) {
+            std::fill_n(to.begin() + static_cast<std::ptrdiff_t>(n), block, empty);
+            continue;
+        }
+        for (std::size_t m = n; m < n + block; m += step) {
+            finish_some(wide, &from[m].r, background, &to[m].r);
+        }
+    }
     for (; n + step <= from.size(); n += step) {
         finish_some(wide, &from[n].r, background, &to[n].r);
     }

@@ -29,7 +29,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // Pixels are placed and weighed so many at a time; then each is a sum over the 16 about it, whose four rows
 // of four are 16 floats each.
-constexpr std::size_t batch = 64;
+constexpr std::size_t batch = 64, part = 16;
 struct alignas(64) Batch {
     std::int32_t i[batch], j[batch];                 // the cell
     std::int32_t first[batch], last[batch];          // of the 16, in the window
@@ -168,6 +168,14 @@ std::size_t resample_span(const Layer& layer, const Track& track, int x0, std::s
         weigh(b.tx, b.weight_x);
         weigh(b.ty, b.weight_y);
         for (std::size_t n = 0; n < count; ++n) {
+            // Much of a batch may be empty too.
+            if (n % part == 0) {
+                const std::size_t last = std::min(n + part, count) - 1;
+                if (!layer.any_lit(b.i[n], b.j[n], b.i[last], b.j[last])) {
+                    n = last;
+                    continue;
+                }
+            }
             const std::size_t later = std::min(n + ahead, batch - 1);
             hwy::Prefetch(pixels + b.first[later]);
             hwy::Prefetch(pixels + b.last[later]);

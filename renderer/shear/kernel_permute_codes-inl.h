@@ -94,7 +94,8 @@ HWY_INLINE Permutation permutation_of(const Slab<std::uint8_t>& slab, const Slic
     return permutation;
 }
 
-// For the rows of a slab, and two more: where they lie among a slice's rows of voxels.
+// For the rows of a slab, and two more where they are fetched ahead: where they lie among a slice's rows of
+// voxels.
 struct RowPlaces {
     std::array<std::int64_t, tallest_tile + 16> offsets;  // of the row before, from the slice's first voxel
     std::array<std::int32_t, tallest_tile + 16> weights;  // of the row behind, 15 bits, twice
@@ -102,7 +103,8 @@ struct RowPlaces {
 
 HWY_INLINE void lay_rows(const Slab<std::uint8_t>& slab, const Slice<std::uint8_t>& slice,
                          RowPlaces& places) {
-    for (int j = slice.pixels.y0; j <= slice.pixels.y1 + 1; j += 8) {
+    const int end = slab.ahead.lines > 0 ? slice.pixels.y1 + 2 : slice.pixels.y1;
+    for (int j = slice.pixels.y0; j < end; j += 8) {
         const __m512i steps =
             steps_of_eight(slice.slow_offset, slice.slow_scale, slab.slow_pixel + j, slab.slow_first);
         // Divided by cell_steps, by way of a product that is exact for all that a double may hold of it.

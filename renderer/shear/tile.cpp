@@ -19,9 +19,11 @@ PixelRange pixels_within(const PixelRange& range, double offset, double scale, d
                          bool open_lo, bool open_hi) {
     const double pixels = 1 / scale;  // a voxel
     const auto boundary = [&](double voxel) {
-        return static_cast<int>(std::clamp(std::ceil((voxel - offset) * pixels),
-                                           static_cast<double>(range.first),
-                                           static_cast<double>(range.last)));
+        // Up to the next: what is not below 0 is cut off by conversion.
+        const double at = std::clamp((voxel - offset) * pixels, static_cast<double>(range.first),
+                                     static_cast<double>(range.last));
+        const int below = static_cast<int>(at);
+        return below + (static_cast<double>(below) < at ? 1 : 0);
     };
     if (scale > 0) {
         return {open_lo ? range.first : boundary(lo), open_hi ? range.last : boundary(hi)};
@@ -55,7 +57,6 @@ bool Tile<Code>::render(const Rect& rect) {
     live_ = {0, 0, rect.width(), rect.height()};
     // The slices of one layer of micro-bricks, or of the octants that pieces are of, go together, as many as
     // a slab takes.
-    const std::int64_t edge = pieces_ != nullptr ? CodeVolume::octant_edge : CodeVolume::micro_edge;
     std::array<Slice<Code>, Slab<Code>::max_slices> slices;
     std::array<std::int64_t, Slab<Code>::max_slices> numbers;
     std::size_t count = 0;
@@ -70,7 +71,8 @@ bool Tile<Code>::render(const Rect& rect) {
     };
     for (std::int64_t n = 0; n < plan_.slice_count(); ++n) {
         const std::int64_t k = plan_.slice(n);
-        const std::int64_t layer_of_k = layer_of(k, edge);
+        const std::int64_t layer_of_k =
+            pieces_ != nullptr ? layer_of<CodeVolume::octant_edge>(k) : layer_of<CodeVolume::micro_edge>(k);
         if (pieces_ != nullptr && !pieces_->any_in(layer_of_k)) {
             continue;
         }
@@ -103,7 +105,9 @@ std::int64_t Tile<Code>::cell_of(std::int64_t k) const {
 
 // Its layer of so many cells, counted from the sub-volume's first micro-brick on.
 template <class Code>
-std::int64_t Tile<Code>::layer_of(std::int64_t k, std::int64_t edge) const {
+template <std::int64_t edge>
+std::int64_t Tile<Code>::layer_of(std::int64_t k) const {
+    static_assert(CodeVolume::micro_edge % edge == 0);
     return cell_of(k) / edge -
            codes_.micro_bricks().first(plan_.face().axis) * (CodeVolume::micro_edge / edge);
 }
@@ -138,7 +142,7 @@ Slice<Code> Tile<Code>::slice_of(std::int64_t k) const {
 // Slices that lie in one layer of micro-bricks, each with some pixels.
 template <class Code>
 void Tile<Code>::render_slices(Slices slices, std::span<const std::int64_t> numbers) {
-    const std::int64_t number = layer_of(numbers.front(), CodeVolume::micro_edge);
+    const std::int64_t number = layer_of<CodeVolume::micro_edge>(numbers.front());
     const VoxelRegion region = region_of(slices, numbers, nodes_of(codes_.own()));
     const auto [fast_bricks, slow_bricks] = runs_of(region, CodeVolume::micro_edge);
     const MicroLayer layer(codes_, contents_, plan_, number, fast_bricks, slow_bricks);
@@ -275,19 +279,19 @@ Slab<Code> Tile<Code>::slab_of(Slices slices, std::span<const std::int64_t> numb
 template <class Code>
 Slab<Code> Tile<Code>::slab_at(Slices slices, std::span<const std::int64_t> numbers,
                                const VoxelRegion& region, Visit visit, const VoxelPlace<Code>& place) const {
-    Slab<Code> slab{.fast_first = region.lo[0],
-                    .slow_first = region.lo[1],
-                    .fast_cells = region.hi[0] - region.lo[0],
-                    .slow_cells = region.hi[1] - region.lo[1],
-                    .stride = place.row_stride,
-                    .ahead = {},
-                    .fast_pixel = rect_.x0,
-                    .slow_pixel = rect_.y0,
-                    .blanks = visit == Visit::with_blanks,
-                    .between_nodes = between_nodes_,
-                    .faint = faint_,
-                    .count = static_cast<int>(slices.size()),
-                    .slices = {}};
+    Slab<Code> slab;  // whose other slices are never looked at
+    slab.fast_first = region.lo[0];
+    slab.slow_first = region.lo[1];
+    slab.fast_cells = region.hi[0] - region.lo[0];
+    slab.slow_cells = region.hi[1] - region.lo[1];
+    slab.stride = place.row_stride;
+    slab.ahead = {};
+    slab.fast_pixel = rect_.x0;
+    slab.slow_pixel = rect_.y0;
+    slab.blanks = visit == Visit::with_blanks;
+    slab.between_nodes = between_nodes_;
+    slab.faint = faint_;
+    slab.count = static_cast<int>(slices.size());
     for (std::size_t n = 0; n < slices.size(); ++n) {
         const double w = plan_.node_place(numbers[n]);
         const auto plane = static_cast<std::int64_t>(w);
@@ -328,6 +332,8 @@ void Tile<Code>::note_met(const VoxelRegion& region) {
     }
 }
 
+template std::int64_t Tile<std::uint8_t>::layer_of<CodeVolume::octant_edge>(std::int64_t) const;
+template std::int64_t Tile<std::uint16_t>::layer_of<CodeVolume::octant_edge>(std::int64_t) const;
 template class Tile<std::uint8_t>;
 template class Tile<std::uint16_t>;
 

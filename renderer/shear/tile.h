@@ -68,7 +68,8 @@ class Tile {
 
     void begin_rays();
     std::int64_t cell_of(std::int64_t k) const;
-    std::int64_t layer_of(std::int64_t k, std::int64_t edge) const;
+    template <std::int64_t edge>
+    std::int64_t layer_of(std::int64_t k) const;
     Slice<Code> slice_of(std::int64_t k) const;
     std::array<MicroRun, 2> runs_of(const VoxelRegion& region, std::int64_t edge) const;
     void render_slices(Slices slices, std::span<const std::int64_t> numbers);

@@ -25,7 +25,7 @@ template <class Code>
 void Tile<Code>::begin_rays() {
     begun_ = true;
     for (Plane* const plane : {&planes_->r, &planes_->g, &planes_->b, &planes_->a}) {
-        plane->fill(0);
+        std::fill_n(plane->begin(), rect_.height() * stride, 0.0F);
     }
     const float unit = classification_.segments ? 1 : classification_.table.depth_unit();
     const auto across = static_cast<std::size_t>(rect_.width());

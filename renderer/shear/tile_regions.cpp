@@ -20,6 +20,12 @@ std::pair<double, double> ends_of(double offset, double scale, int first, int en
     return {std::min(a, b), std::max(a, b)};
 }
 
+// std::floor, for what has an integer: some processors that this has to run on have no instruction for it.
+std::int64_t floor_of(double x) {
+    const auto towards_zero = static_cast<std::int64_t>(x);
+    return towards_zero - (x < static_cast<double>(towards_zero) ? 1 : 0);
+}
+
 }  // namespace
 
 // All nodes of a box.
@@ -56,8 +62,8 @@ VoxelRegion Tile<Code>::region_of(Slices slices, std::span<const std::int64_t> n
     VoxelRegion region;
     for (std::size_t n = 0; n < 3; ++n) {
         const std::int64_t lo = within.lo[n], hi = within.hi[n];
-        region.lo[n] = std::clamp(static_cast<std::int64_t>(std::floor(ends[n].first)), lo, hi - 1);
-        region.hi[n] = std::clamp(static_cast<std::int64_t>(std::floor(ends[n].second)) + 1, lo + 1, hi);
+        region.lo[n] = std::clamp(floor_of(ends[n].first), lo, hi - 1);
+        region.hi[n] = std::clamp(floor_of(ends[n].second) + 1, lo + 1, hi);
     }
     // A slice on a plane needs none behind it.
     region.hi[2] =

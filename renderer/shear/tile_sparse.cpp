@@ -10,7 +10,7 @@ namespace shearwater::shear {
 // Slices that lie in one half layer of micro-bricks, each with some pixels.
 template <class Code>
 void Tile<Code>::render_sparse(Slices slices, std::span<const std::int64_t> numbers) {
-    const std::int64_t half_layer = layer_of(numbers.front(), CodeVolume::octant_edge);
+    const std::int64_t half_layer = layer_of<CodeVolume::octant_edge>(numbers.front());
     find_seen(half_layer,
               runs_of(region_of(slices, numbers, nodes_of(codes_.own())), CodeVolume::octant_edge));
     const auto& [all_fast, all_slow] = pieces_->octants();
@@ -48,7 +48,10 @@ void Tile<Code>::find_seen(std::int64_t half_layer, const std::array<MicroRun, 2
     for (std::int64_t n = fast.first / column; n * column < fast.end; ++n) {
         for (const auto& copied : pieces_->in(half_layer, n)) {
             const Piece& piece = copied.piece;
-            if (!meet(piece.slow, slow) || !meet(piece.fast, fast) ||
+            if (piece.slow.first >= slow.end) {
+                break;  // and so are those that follow
+            }
+            if (piece.slow.end <= slow.first || !meet(piece.fast, fast) ||
                 (some_hidden_ && !is_seen(piece, half_layer))) {
                 continue;
             }
