@@ -118,7 +118,7 @@ class FaceRenderer {
           pieces_(pieces),
           plan_(plan),
           order_(order),
-          tile_rows_(Tile<Code>::rows_of(frame.volume, plan)) {}
+          tile_rows_(Tile<Code>::rows_of(frame.volume, plan, pieces != nullptr)) {}
 
     void add(std::size_t band, const view::Band& cut) {
         const Rect rect = intersection(plan_.window(), plan_.turn(cut.rect));

@@ -29,10 +29,13 @@ class Tile {
     static constexpr int height = tallest_tile;  // at most
     // How high tiles of a face had best be. Where lines of the cache are turned, which lie across many
     // slices, a tile needs more of them than its own as rays move on sideways: the fewer, the higher it is.
-    static int rows_of(const BrickVolume& volume, const FacePlan& plan) {
+    // Where there is little to be seen, most of the work is done once for every tile and layer.
+    static int rows_of(const BrickVolume& volume, const FacePlan& plan, bool sparse) {
+        constexpr int usual = 32, turned = 48;
+        static_assert(turned < height);
         const int axis = plan.face().axis;
         const bool turns = TileVoxels<Code>::turns(volume.level(plan.level()).best_for(axis), axis);
-        return turns ? height : height * 2 / 3;
+        return sparse ? height : turns ? turned : usual;
     }
 
     // All have to outlive it. The contents are those of the level's micro-bricks that may be seen; the
