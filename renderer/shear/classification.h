@@ -23,7 +23,7 @@ struct Classification {
     std::vector<std::vector<Content>>
         micro_bricks;                  // of each level, as CodeVolume::micro_bricks() counts them
     std::vector<std::uint8_t> opaque;  // as BrickVolume::bricks() does: whether one in it is not transparent
-    // Of each level, where pieces of what may be seen pay; found and copied when they are first drawn.
+    // Of each level, where pieces of what may be seen pay.
     std::vector<bool> is_sparse;
     std::unique_ptr<SparseFaces> sparse = std::make_unique<SparseFaces>();
 };

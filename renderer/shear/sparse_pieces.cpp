@@ -133,7 +133,7 @@ bool SparseFaces::pay(std::uint64_t opaque, std::uint64_t octants) {
 }
 
 template <class Code>
-const SparsePieces<Code>& SparseFaces::pieces(const CodeVolume& codes, int level,
+const SparsePieces<Code>* SparseFaces::pieces(const CodeVolume& codes, int level,
                                               std::span<const Content> contents, int axis,
                                               base::Workers& workers) {
     const std::lock_guard lock(mutex_);
@@ -148,16 +148,16 @@ const SparsePieces<Code>& SparseFaces::pieces(const CodeVolume& codes, int level
     if (std::cmp_greater_equal(level, levels.size())) {
         levels.resize(static_cast<std::size_t>(level) + 1);
     }
-    auto& pieces = levels[static_cast<std::size_t>(level)][static_cast<std::size_t>(axis)];
-    if (!pieces) {
-        pieces = std::make_unique<const SparsePieces<Code>>(codes, contents, axis, workers);
+    Face<Code>& face = levels[static_cast<std::size_t>(level)][static_cast<std::size_t>(axis)];
+    if (!face.pieces && std::exchange(face.asked_for, true)) {
+        face.pieces = std::make_unique<const SparsePieces<Code>>(codes, contents, axis, workers);
     }
-    return *pieces;
+    return face.pieces.get();
 }
 
-template const SparsePieces<std::uint8_t>& SparseFaces::pieces(const CodeVolume&, int,
+template const SparsePieces<std::uint8_t>* SparseFaces::pieces(const CodeVolume&, int,
                                                                std::span<const Content>, int, base::Workers&);
-template const SparsePieces<std::uint16_t>& SparseFaces::pieces(const CodeVolume&, int,
+template const SparsePieces<std::uint16_t>* SparseFaces::pieces(const CodeVolume&, int,
                                                                 std::span<const Content>, int,
                                                                 base::Workers&);
 

@@ -84,19 +84,26 @@ class SparsePieces {
     std::vector<Code> voxels_;
 };
 
-// Those of a classification, of every level and axis, once they are drawn.
+// Those of a classification, of every level and axis.
 class SparseFaces {
   public:
     // Whether so many octants of so many are so few that pieces of them are soon found and copied.
     static bool pay(std::uint64_t opaque, std::uint64_t octants);
 
+    // None when they are first asked for: while a transfer function is being changed, every frame has
+    // another, and is drawn as soon without.
     template <class Code>
-    const SparsePieces<Code>& pieces(const CodeVolume& codes, int level, std::span<const Content> contents,
+    const SparsePieces<Code>* pieces(const CodeVolume& codes, int level, std::span<const Content> contents,
                                      int axis, base::Workers& workers);
 
   private:
     template <class Code>
-    using Levels = std::vector<std::array<std::unique_ptr<const SparsePieces<Code>>, 3>>;
+    struct Face {
+        bool asked_for = false;
+        std::unique_ptr<const SparsePieces<Code>> pieces;
+    };
+    template <class Code>
+    using Levels = std::vector<std::array<Face<Code>, 3>>;
 
     std::mutex mutex_;
     Levels<std::uint8_t> bytes_;

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "common/volume/levels.h"
 #include "renderer/shear/level_builder.h"
@@ -99,17 +98,9 @@ void expect_reaches(const BrickVolume& volume, const FloatCube& cube) {
     }
 }
 
-FloatCube spotted_cube(const Index3& n) {
-    FloatCube cube = test::noise_cube(n);
-    for (std::size_t i = 0; i < cube.values().size(); i += 1009) {
-        cube.values()[i] = std::numeric_limits<float>::quiet_NaN();
-    }
-    return cube;
-}
-
 TEST(BrickVolume, HoldsEveryVoxelsCode) {
     base::Workers workers(3);
-    FloatCube cube = spotted_cube({70, 41, 66});
+    FloatCube cube = test::blanked(test::noise_cube({70, 41, 66}), 1009);
     for (const Box& box : {volume::whole(cube.n()), Box{{31, 0, 33}, {33, 40, 65}}, Box{{5, 6, 7}, {6, 7, 8}},
                            Box{{32, 0, 0}, {64, 32, 32}}}) {
         for (const int bits : {8, 16}) {
@@ -139,7 +130,7 @@ TEST(BrickVolume, HoldsEveryVoxelsCode) {
 
 // A source that lets all workers read at once gives the same.
 TEST(BrickVolume, LoadsAtOnceWhatItLoadsInTurn) {
-    FloatCube cube = spotted_cube({130, 121, 66});
+    FloatCube cube = test::blanked(test::noise_cube({130, 121, 66}), 1009);
     base::Workers one(1), three(3);
     const Box box{{3, 0, 5}, {129, 117, 65}};
     ASSERT_TRUE(cube.concurrent());

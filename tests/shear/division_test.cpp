@@ -191,10 +191,7 @@ TEST(Division, InTreesGivesOnePicture) {
 
 // Slivers one cell thin, beside one another and at the cube's edges; parts cut along different axes.
 TEST(Division, UnevenlyGivesOnePicture) {
-    FloatCube cube = noise_cube({34, 33, 35}, 3);
-    for (std::size_t i = 0; i < cube.values().size(); i += 11) {
-        cube.values()[i] = std::numeric_limits<float>::quiet_NaN();
-    }
+    FloatCube cube = blanked(noise_cube({34, 33, 35}, 3), 11);
     const Box whole = volume::whole(cube.n());
     Node slivers = cut(whole, 0, {1, 2, 20, 32});
     slivers.parts[2] = cut(slivers.parts[2].box, 1, {31});
@@ -208,10 +205,7 @@ TEST(Division, UnevenlyGivesOnePicture) {
 
 // Cuts that fall on nodes of no level but the voxels, on pictures in which voxels are small.
 TEST(Division, OnCoarserLevelsGivesOnePicture) {
-    FloatCube cube = noise_cube({131, 67, 97}, 4);
-    for (std::size_t i = 0; i < cube.values().size(); i += 7) {
-        cube.values()[i] = std::numeric_limits<float>::quiet_NaN();
-    }
+    FloatCube cube = blanked(noise_cube({131, 67, 97}, 4), 7);
     const Box whole = volume::whole(cube.n());
     Node tree{.box = whole};
     divide(tree, 2, 3);
@@ -294,10 +288,7 @@ TEST_F(DivisionOfSegments, AcrossEveryAxisGivesOnePicture) {
 }
 
 TEST_F(DivisionOfSegments, IntoSliversGivesOnePicture) {
-    FloatCube cube = noise_cube({34, 33, 35}, 6);
-    for (std::size_t i = 0; i < cube.values().size(); i += 11) {
-        cube.values()[i] = std::numeric_limits<float>::quiet_NaN();
-    }
+    FloatCube cube = blanked(noise_cube({34, 33, 35}, 6), 11);
     Node slivers = cut(volume::whole(cube.n()), 0, {1, 2, 20, 32});
     slivers.parts[2] = cut(slivers.parts[2].box, 1, {31});
     slivers.parts[3] = cut(slivers.parts[3].box, 2, {1, 17, 33});
@@ -310,10 +301,7 @@ TEST_F(DivisionOfSegments, IntoSliversGivesOnePicture) {
 }
 
 TEST_F(DivisionOfSegments, OnCoarserLevelsGivesOnePicture) {
-    FloatCube cube = noise_cube({131, 67, 97}, 7);
-    for (std::size_t i = 0; i < cube.values().size(); i += 7) {
-        cube.values()[i] = std::numeric_limits<float>::quiet_NaN();
-    }
+    FloatCube cube = blanked(noise_cube({131, 67, 97}, 7), 7);
     const Box whole = volume::whole(cube.n());
     Node tree{.box = whole};
     divide(tree, 2, 3);

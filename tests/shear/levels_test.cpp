@@ -23,10 +23,7 @@ using volume::Index3;
 
 // Some blank in every eight voxels, and a corner in which most are.
 FloatCube spotted_cube(const Index3& n) {
-    FloatCube cube = noise_cube(n);
-    for (std::size_t i = 0; i < cube.values().size(); i += 5) {
-        cube.values()[i] = std::numeric_limits<float>::quiet_NaN();
-    }
+    FloatCube cube = blanked(noise_cube(n), 5);
     for (std::int64_t z = 0; z < n[2] / 3; ++z) {
         for (std::int64_t y = 0; y < n[1] / 3; ++y) {
             for (std::int64_t x = 0; x < n[0]; ++x) {

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <limits>
 
 #include "common/image/warp.h"
 #include "common/volume/levels.h"
@@ -47,14 +46,6 @@ class Watched final : public volume::VoxelSource {
     FloatCube& cube_;
 };
 
-FloatCube spotted_cube(const Index3& n) {
-    FloatCube cube = noise_cube(n);
-    for (std::size_t i = 0; i < cube.values().size(); i += 7) {
-        cube.values()[i] = std::numeric_limits<float>::quiet_NaN();
-    }
-    return cube;
-}
-
 template <class Code>
 void expect_nodes(const shear::BrickVolume& volume, int level, const FloatCube& cube) {
     const shear::CodeVolume& nodes = volume.level(level);
@@ -77,7 +68,7 @@ const std::vector<Box> boxes{volume::whole({131, 70, 97}),
                              {{3, 5, 6}, {4, 6, 7}}};
 
 TEST(Sketch, HoldsTheVoxelsOnTheNodes) {
-    FloatCube cube = spotted_cube({131, 70, 97});
+    FloatCube cube = blanked(noise_cube({131, 70, 97}), 7);
     base::Workers workers(3);
     for (const Box& box : boxes) {
         for (int level = 1; level <= volume::coarsest_level(cube.n()); ++level) {
@@ -105,7 +96,7 @@ TEST(Sketch, ReadsOneRowForEachRowOfNodes) {
 
 // Whatever the cuts, every node of the cube is counted in one of the boxes.
 TEST(Sketch, OfADivisionCountsWhatThatOfTheWholeDoes) {
-    FloatCube cube = spotted_cube({131, 70, 97});
+    FloatCube cube = blanked(noise_cube({131, 70, 97}), 7);
     base::Workers workers(1);
     const auto histogram_of = [&](const Box& box, int level) {
         return Sketch::read(cube, box, cube.n(), level, workers).value().histogram();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <limits>
 #include <random>
 
 #include "common/base/check.h"
@@ -65,6 +66,13 @@ FloatCube noise_cube(const Index3& n, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(0, 1);
     return FloatCube(n, [&](double, double, double) { return unit(random); });
+}
+
+FloatCube blanked(FloatCube cube, std::size_t one_of) {
+    for (std::size_t i = 0; i < cube.values().size(); i += one_of) {
+        cube.values()[i] = std::numeric_limits<float>::quiet_NaN();
+    }
+    return cube;
 }
 
 FloatCube permuted(const FloatCube& cube, const std::array<int, 3>& from) {

@@ -39,6 +39,8 @@ class FloatCube final : public volume::VoxelSource {
 FloatCube smooth_cube(const volume::Index3& n, unsigned seed = 1);
 // Independent values, uniform in [0, 1).
 FloatCube noise_cube(const volume::Index3& n, unsigned seed = 1);
+// The cube with one voxel of so many blank, along its rows.
+FloatCube blanked(FloatCube cube, std::size_t one_of);
 // The cube whose axis a is axis from[a] of the given one.
 FloatCube permuted(const FloatCube& cube, const std::array<int, 3>& from);
 
