@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "renderer/shear/fetching.h"
 #include "renderer/shear/kernel.h"
+#include "renderer/shear/tile_voxels.h"
 
 namespace shearwater::shear {
 
@@ -19,6 +21,34 @@ std::array<int, 3> axes_of(int principal) {
 
 }  // namespace
 
+// Rows of a column, one after the other: those that are alike make pieces together.
+template <class Code>
+class SparsePieces<Code>::Adding {
+  public:
+    explicit Adding(Found& found) : found_(found), begin_(found.pieces.size()), last_(begin_) {}
+
+    std::size_t begin() const { return begin_; }
+    void add(std::int64_t row, std::vector<OctantRun>& runs) {
+        if (!runs.empty() && runs == last_runs_) {
+            for (Copied& copied : std::span(found_.pieces).subspan(last_)) {
+                ++copied.piece.slow.end;
+            }
+            return;
+        }
+        last_ = found_.pieces.size();
+        for (const OctantRun& run : runs) {
+            found_.pieces.push_back({{run.along, {row, row + 1}, run.visit}});
+        }
+        std::swap(runs, last_runs_);
+    }
+
+  private:
+    Found& found_;
+    const std::size_t begin_;
+    std::size_t last_;  // of the last row's pieces the first
+    std::vector<OctantRun> last_runs_;
+};
+
 template <class Code>
 SparsePieces<Code>::SparsePieces(const CodeVolume& codes, std::span<const Content> contents, int axis,
                                  base::Workers& workers)
@@ -28,15 +58,16 @@ SparsePieces<Code>::SparsePieces(const CodeVolume& codes, std::span<const Conten
         octants_[n] = {0, 2 * counts[static_cast<std::size_t>(axes_[n])]};
     }
     columns_ = static_cast<std::size_t>((octants_[0].end + column - 1) / column);
-    const std::int64_t half_layers = 2 * counts[static_cast<std::size_t>(axis)];
-    std::vector<Found> found(static_cast<std::size_t>(half_layers));
-    workers.for_each(half_layers, [&](std::int64_t half_layer) {
-        found[static_cast<std::size_t>(half_layer)] = found_in(half_layer, contents);
+    const std::int64_t layers = counts[static_cast<std::size_t>(axis)];
+    std::vector<FoundInHalves> found(static_cast<std::size_t>(layers));
+    workers.for_each(layers, [&](std::int64_t layer) {
+        found[static_cast<std::size_t>(layer)] = found_in(layer, contents);
     });
     begins_ = {0};
     std::size_t size = 0;
-    for (std::int64_t half_layer = 0; half_layer < half_layers; ++half_layer) {
-        const Found& here = found[static_cast<std::size_t>(half_layer)];
+    for (std::int64_t half_layer = 0; half_layer < 2 * layers; ++half_layer) {
+        const Found& here =
+            found[static_cast<std::size_t>(half_layer / 2)][static_cast<std::size_t>(half_layer % 2)];
         for (const std::size_t count : here.of_columns) {
             begins_.push_back(begins_.back() + count);
         }
@@ -47,43 +78,45 @@ SparsePieces<Code>::SparsePieces(const CodeVolume& codes, std::span<const Conten
         }
     }
     voxels_.resize(size + voxel_padding / sizeof(Code));
-    workers.for_each(half_layers, [this](std::int64_t half_layer) { copy_voxels(half_layer); });
+    workers.for_each(2 * layers, [this](std::int64_t half_layer) { copy_voxels(half_layer); });
 }
 
+// Those of a layer of micro-bricks, nearer and farther.
 template <class Code>
-auto SparsePieces<Code>::found_in(std::int64_t half_layer, std::span<const Content> contents) const -> Found {
+auto SparsePieces<Code>::found_in(std::int64_t layer, std::span<const Content> contents) const
+    -> FoundInHalves {
     const volume::Index3& counts = codes_.micro_bricks().counts();
     const volume::Index3 strides{1, counts[0], counts[0] * counts[1]};
     const auto stride = [&](std::size_t n) { return strides[static_cast<std::size_t>(axes_[n])]; };
-    const Content* const layer = contents.data() + half_layer / 2 * stride(2);
-    Found found;
-    std::vector<OctantRun> runs, last_runs;
+    const Content* const first_row = contents.data() + layer * stride(2);
+    FoundInHalves found;
+    std::vector<OctantRun> runs;
     for (std::int64_t first = 0; first < octants_[0].end; first += column) {
         const MicroRun across{first, std::min(first + column, octants_[0].end)};
         const MicroRun micro_bricks{across.first / 2, (across.end + 1) / 2};
-        const std::size_t begin = found.pieces.size();
-        std::size_t last = begin;  // of the last row's pieces the first
-        last_runs.clear();
-        for (std::int64_t row = 0; row < octants_[1].end; ++row) {
-            const Content* const contents_of_row = layer + row / 2 * stride(1);
-            const auto content_at = [&](std::int64_t n) -> const Content& {
-                return contents_of_row[n * stride(0)];
-            };
-            const auto near = static_cast<int>(row % 2 << axes_[1] | half_layer % 2 << axes_[2]);
-            find_runs(content_at, micro_bricks, across, near, near | 1 << axes_[0], runs);
-            if (!runs.empty() && runs == last_runs) {
-                for (Copied& copied : std::span(found.pieces).subspan(last)) {
-                    ++copied.piece.slow.end;
+        std::array<Adding, 2> halves{Adding(found[0]), Adding(found[1])};
+        for (std::int64_t row = 0; 2 * row < octants_[1].end; ++row) {
+            const auto content_at = [of_row = first_row + row * stride(1), along = stride(0)](
+                                        std::int64_t n) -> const Content& { return of_row[n * along]; };
+            unsigned any = 0;  // most rows have none at all
+            for (std::int64_t n = micro_bricks.first; n < micro_bricks.end; ++n) {
+                any |= content_at(n).opaque_octants;
+            }
+            for (int octant_row = 0; octant_row < 2; ++octant_row) {
+                for (int half = 0; half < 2; ++half) {
+                    const int near = octant_row << axes_[1] | half << axes_[2];
+                    const int far = near | 1 << axes_[0];
+                    runs.clear();
+                    if ((any & (1U << near | 1U << far)) != 0) {
+                        find_runs(content_at, micro_bricks, across, near, far, runs);
+                    }
+                    halves[static_cast<std::size_t>(half)].add(2 * row + octant_row, runs);
                 }
-                continue;
             }
-            last = found.pieces.size();
-            for (const OctantRun& run : runs) {
-                found.pieces.push_back({{run.along, {row, row + 1}, run.visit}});
-            }
-            std::swap(runs, last_runs);
         }
-        found.of_columns.push_back(found.pieces.size() - begin);
+        for (std::size_t half = 0; half < halves.size(); ++half) {
+            found[half].of_columns.push_back(found[half].pieces.size() - halves[half].begin());
+        }
     }
     return found;
 }
@@ -105,11 +138,25 @@ template <class Code>
 void SparsePieces<Code>::copy_voxels(std::int64_t half_layer) {
     const CodeArray& codes = codes_.best_for(axes_[2]);
     const std::size_t first = begins_[slot(half_layer)], end = begins_[slot(half_layer + 1)];
-    for (const Copied& copied : std::span(pieces_).subspan(first, end - first)) {
+    const auto pieces = std::span<const Copied>(pieces_).subspan(first, end - first);
+    // They lie too strewn for the processor to foresee what comes next.
+    constexpr std::size_t ahead = 3;
+    const auto fetch = [&](std::size_t n) {
+        if (n < pieces.size()) {
+            Fetching(ahead_of<Code>(codes, axes_, nodes_of(half_layer, pieces[n].piece)), 1)
+                .template step<Into::second>();
+        }
+    };
+    for (std::size_t n = 0; n < ahead; ++n) {
+        fetch(n);
+    }
+    for (std::size_t n = 0; n < pieces.size(); ++n) {
+        fetch(n + ahead);
+        const Copied& copied = pieces[n];
         const VoxelRegion nodes = nodes_of(half_layer, copied.piece);
         volume::Index3 at;
-        for (std::size_t n = 0; n < 3; ++n) {
-            at[static_cast<std::size_t>(axes_[n])] = nodes.lo[n];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            at[static_cast<std::size_t>(axes_[axis])] = nodes.lo[axis];
         }
         const Code* const lowest = &codes.codes<Code>()[codes.offset(at)];
         Code* to = &voxels_[copied.first];
@@ -133,7 +180,7 @@ bool SparseFaces::pay(std::uint64_t opaque, std::uint64_t octants) {
 }
 
 template <class Code>
-const SparsePieces<Code>* SparseFaces::pieces(const CodeVolume& codes, int level,
+const SparsePieces<Code>& SparseFaces::pieces(const CodeVolume& codes, int level,
                                               std::span<const Content> contents, int axis,
                                               base::Workers& workers) {
     const std::lock_guard lock(mutex_);
@@ -148,16 +195,16 @@ const SparsePieces<Code>* SparseFaces::pieces(const CodeVolume& codes, int level
     if (std::cmp_greater_equal(level, levels.size())) {
         levels.resize(static_cast<std::size_t>(level) + 1);
     }
-    Face<Code>& face = levels[static_cast<std::size_t>(level)][static_cast<std::size_t>(axis)];
-    if (!face.pieces && std::exchange(face.asked_for, true)) {
-        face.pieces = std::make_unique<const SparsePieces<Code>>(codes, contents, axis, workers);
+    auto& pieces = levels[static_cast<std::size_t>(level)][static_cast<std::size_t>(axis)];
+    if (!pieces) {
+        pieces = std::make_unique<const SparsePieces<Code>>(codes, contents, axis, workers);
     }
-    return face.pieces.get();
+    return *pieces;
 }
 
-template const SparsePieces<std::uint8_t>* SparseFaces::pieces(const CodeVolume&, int,
+template const SparsePieces<std::uint8_t>& SparseFaces::pieces(const CodeVolume&, int,
                                                                std::span<const Content>, int, base::Workers&);
-template const SparsePieces<std::uint16_t>* SparseFaces::pieces(const CodeVolume&, int,
+template const SparsePieces<std::uint16_t>& SparseFaces::pieces(const CodeVolume&, int,
                                                                 std::span<const Content>, int,
                                                                 base::Workers&);
 

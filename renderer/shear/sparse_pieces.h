@@ -69,7 +69,9 @@ class SparsePieces {
         std::vector<Copied> pieces;
         std::vector<std::size_t> of_columns;
     };
-    Found found_in(std::int64_t half_layer, std::span<const Content> contents) const;
+    using FoundInHalves = std::array<Found, 2>;
+    class Adding;
+    FoundInHalves found_in(std::int64_t layer, std::span<const Content> contents) const;
     void copy_voxels(std::int64_t half_layer);
     std::size_t slot(std::int64_t half_layer) const {
         return static_cast<std::size_t>(half_layer) * columns_;
@@ -90,20 +92,14 @@ class SparseFaces {
     // Whether so many octants of so many are so few that pieces of them are soon found and copied.
     static bool pay(std::uint64_t opaque, std::uint64_t octants);
 
-    // None when they are first asked for: while a transfer function is being changed, every frame has
-    // another, and is drawn as soon without.
+    // Found and copied when they are first asked for, which takes less than the volume takes longer to draw.
     template <class Code>
-    const SparsePieces<Code>* pieces(const CodeVolume& codes, int level, std::span<const Content> contents,
+    const SparsePieces<Code>& pieces(const CodeVolume& codes, int level, std::span<const Content> contents,
                                      int axis, base::Workers& workers);
 
   private:
     template <class Code>
-    struct Face {
-        bool asked_for = false;
-        std::unique_ptr<const SparsePieces<Code>> pieces;
-    };
-    template <class Code>
-    using Levels = std::vector<std::array<Face<Code>, 3>>;
+    using Levels = std::vector<std::array<std::unique_ptr<const SparsePieces<Code>>, 3>>;
 
     std::mutex mutex_;
     Levels<std::uint8_t> bytes_;

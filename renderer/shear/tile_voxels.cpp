@@ -48,25 +48,28 @@ VoxelPlace<Code> TileVoxels<Code>::find(const VoxelRegion& region, std::span<con
 }
 
 template <class Code>
-Ahead TileVoxels<Code>::ahead(const VoxelRegion& region) const {
+Ahead ahead_of(const CodeArray& codes, const std::array<int, 3>& axes, const VoxelRegion& region) {
     volume::Index3 at;
     for (std::size_t n = 0; n < 3; ++n) {
-        at[static_cast<std::size_t>(axes_[n])] = region.lo[n];
+        at[static_cast<std::size_t>(axes[n])] = region.lo[n];
     }
-    const auto count = [&](std::size_t n) { return static_cast<int>(region.hi[n] - region.lo[n] + 1); };
-    const auto bytes = [](std::ptrdiff_t codes) { return codes * static_cast<std::ptrdiff_t>(sizeof(Code)); };
-    const auto* const first = reinterpret_cast<const char*>(code_at(at));
-    const auto lines = [&](int codes) {
-        const auto offset = static_cast<int>(reinterpret_cast<std::uintptr_t>(first) % cache_line);
-        return (offset + codes * static_cast<int>(sizeof(Code)) + cache_line - 1) / cache_line;
+    const auto count = [&](std::size_t n) { return static_cast<int>(region.count(n)); };
+    const auto bytes = [](std::ptrdiff_t codes_on) {
+        return codes_on * static_cast<std::ptrdiff_t>(sizeof(Code));
     };
-    // Voxels are adjacent along axis 0: the fast one, or, where they are to be turned, the principal one.
-    const std::size_t row = turns() ? 0 : 1;
-    const std::size_t plane = turns() ? 1 : 2;
+    const auto* const first = reinterpret_cast<const char*>(&codes.codes<Code>()[codes.offset(at)]);
+    const auto lines = [&](int side_by_side) {
+        const auto offset = static_cast<int>(reinterpret_cast<std::uintptr_t>(first) % cache_line);
+        return (offset + side_by_side * static_cast<int>(sizeof(Code)) + cache_line - 1) / cache_line;
+    };
+    // Codes are adjacent along the fast axis, or, where they are to be turned, the principal one.
+    const bool turned = codes.adjacent_axis() == axes[2];
+    const std::size_t row = turned ? 0 : 1;
+    const std::size_t plane = turned ? 1 : 2;
     return {.first = first,
-            .row_stride = bytes(codes_.stride(axes_[row])),
-            .plane_stride = bytes(codes_.stride(axes_[plane])),
-            .lines = lines(turns() ? count(2) : count(0)),
+            .row_stride = bytes(codes.stride(axes[row])),
+            .plane_stride = bytes(codes.stride(axes[plane])),
+            .lines = lines(turned ? count(2) : count(0)),
             .rows = count(row),
             .planes = count(plane)};
 }
@@ -131,6 +134,8 @@ VoxelRegion TileVoxels<Code>::wanted_of_plane(std::int64_t v) const {
     return plane;
 }
 
+template Ahead ahead_of<std::uint8_t>(const CodeArray&, const std::array<int, 3>&, const VoxelRegion&);
+template Ahead ahead_of<std::uint16_t>(const CodeArray&, const std::array<int, 3>&, const VoxelRegion&);
 template class TileVoxels<std::uint8_t>;
 template class TileVoxels<std::uint16_t>;
 

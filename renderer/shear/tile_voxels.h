@@ -14,6 +14,10 @@
 
 namespace shearwater::shear {
 
+// What has to be fetched for a region of codes, `axes` being the fast, the slow and the principal one.
+template <class Code>
+Ahead ahead_of(const CodeArray& codes, const std::array<int, 3>& axes, const VoxelRegion& region);
+
 template <class Code>
 class TileVoxels {
   public:
@@ -28,7 +32,7 @@ class TileVoxels {
     // `more` is what may be asked for next: where voxels have to be turned, all of it is.
     VoxelPlace<Code> find(const VoxelRegion& region, std::span<const VoxelRegion> more);
     // What of the volume a region will take to find.
-    Ahead ahead(const VoxelRegion& region) const;
+    Ahead ahead(const VoxelRegion& region) const { return ahead_of<Code>(codes_, axes_, region); }
 
   private:
     void turn(const VoxelRegion& region, std::span<const VoxelRegion> more);

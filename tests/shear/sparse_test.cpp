@@ -156,22 +156,6 @@ TEST(Sparse, PiecesHoldAllThatMayBeSeen) {
     }
 }
 
-TEST(Sparse, PiecesAreFoundOnceAFaceIsDrawnAgain) {
-    base::Workers workers(2);
-    FloatCube cube = scattered_cube({67, 50, 61});
-    const BrickVolume volume = bricks_of(cube, workers);
-    const auto classification = shear::classify(volume, above_half, view::Classify::post, workers);
-    const auto pieces = [&](int axis) {
-        return classification.sparse->pieces<std::uint8_t>(volume.level(0), 0, classification.micro_bricks[0],
-                                                           axis, workers);
-    };
-    EXPECT_EQ(pieces(1), nullptr);
-    const auto* const found = pieces(1);
-    EXPECT_NE(found, nullptr);
-    EXPECT_EQ(pieces(2), nullptr) << "another face";
-    EXPECT_EQ(pieces(1), found);
-}
-
 TEST(Sparse, IsWhatShowsLittle) {
     using shear::SparseFaces;
     EXPECT_TRUE(SparseFaces::pay(0, 0));
@@ -233,7 +217,6 @@ void expect_as_by_volume(FloatCube& cube, const volume::Box& box, const Shown& t
                                                visible ? &*visible : nullptr);
             return image::warp(factorisation, windows, view.camera, taking.size, {0, 0, 0}, workers);
         };
-        picture(by_pieces);  // of none yet, if it is the first of its faces
         const auto a = picture(by_pieces), b = picture(by_volume);
         EXPECT_LE(largest_difference(a, b), 1) << view.name;
         EXPECT_GE(psnr(a, b), 60) << view.name;
