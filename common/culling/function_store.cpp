@@ -51,6 +51,24 @@ class CodesBelow {
     std::array<std::uint8_t, 13 * 32> first_{};  // up to 1
 };
 
+// The code of what members' rates combine to, as a share of the most; by one thread at a time.
+class Combining {
+  public:
+    Combining(Combination combination, float most)
+        : combination_(std::move(combination)),
+          // Rounded so that no code says more than it would times `most`.
+          scale_(most > 0 ? (1 - 1e-6F) / most : 0) {}
+
+    std::uint8_t operator()(std::span<const float> rates) const {
+        return codes_below_(combination_(rates) * scale_);
+    }
+
+  private:
+    const CodesBelow codes_below_{rates_by_code([](double rate) { return rate; })};
+    Combination combination_;
+    float scale_;
+};
+
 }  // namespace
 
 FunctionStore::FunctionStore(const BlockGrid& grid, const DirectionGrid& directions)
@@ -140,6 +158,9 @@ std::vector<BlockRates::Codes> FunctionStore::codes_of(Combined& combined, std::
         }
         codes.emplace_back(of);
     }
+    if (!missing.empty() && combined.scaled.size() == 2 && combined.of_pairs.empty()) {
+        combine_pairs(combined, workers);
+    }
     workers.for_each(static_cast<std::int64_t>(missing.size()), [&](std::int64_t n) {
         const auto& [cell, of] = missing[static_cast<std::size_t>(n)];
         combine(combined, cell, *of);
@@ -147,19 +168,39 @@ std::vector<BlockRates::Codes> FunctionStore::codes_of(Combined& combined, std::
     return codes;
 }
 
+// Of 65536 pairs, where a cell may have as many blocks, and a view dozens of cells.
+void FunctionStore::combine_pairs(Combined& combined, base::Workers& workers) {
+    constexpr std::size_t codes = 256;
+    combined.of_pairs.resize(codes * codes);
+    workers.for_each(static_cast<std::int64_t>(codes), [&](std::int64_t first) {
+        Combining combining(combined.combination, combined.most);
+        const auto n = static_cast<std::size_t>(first);
+        for (std::size_t second = 0; second < codes; ++second) {
+            const std::array<float, 2> rates{combined.scaled[0].rate[n], combined.scaled[1].rate[second]};
+            combined.of_pairs[n * codes + second] = combining(rates);
+        }
+    });
+}
+
 void FunctionStore::combine(const Combined& combined, int cell, std::span<std::uint8_t> codes) const {
     const std::size_t first = static_cast<std::size_t>(cell) * grid_.size();
-    const CodesBelow codes_below(rates_by_code([](double rate) { return rate; }));
-    // Rounded so that no code says more than it would times `most`.
-    const float scale = combined.most > 0 ? (1 - 1e-6F) / combined.most : 0;
-    Combination combination = combined.combination;
+    const auto codes_of_cell = [&](const Scaled& scaled) {
+        return std::span(scaled.table->codes).subspan(first, codes.size());
+    };
+    if (combined.scaled.size() == 2) {
+        std::ranges::transform(
+            codes_of_cell(combined.scaled[0]), codes_of_cell(combined.scaled[1]), codes.begin(),
+            [&](std::uint8_t a, std::uint8_t b) { return combined.of_pairs[std::size_t{a} << 8U | b]; });
+        return;
+    }
+    Combining combining(combined.combination, combined.most);
     std::vector<float> rates(combined.scaled.size());
     for (std::size_t block = 0; block < codes.size(); ++block) {
         for (std::size_t n = 0; n < rates.size(); ++n) {
             const Scaled& scaled = combined.scaled[n];
             rates[n] = scaled.rate[scaled.table->codes[first + block]];
         }
-        codes[block] = codes_below(combination(rates) * scale);
+        codes[block] = combining(rates);
     }
 }
 

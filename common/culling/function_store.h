@@ -63,6 +63,7 @@ class FunctionStore {
         std::vector<Scaled> scaled;
         Combination combination;
         std::map<int, std::vector<std::uint8_t>> of;  // by direction cell, unless there is but one table
+        std::vector<std::uint8_t> of_pairs = {};      // where there are two, of any two codes
     };
 
     const Kept* kept(const FunctionKey& key) const;
@@ -70,6 +71,7 @@ class FunctionStore {
     std::vector<BlockRates::Codes> codes_of(Combined& combined, std::span<const int> cells,
                                             base::Workers& workers) const;
     void combine(const Combined& combined, int cell, std::span<std::uint8_t> codes) const;
+    static void combine_pairs(Combined& combined, base::Workers& workers);
 
     BlockGrid grid_;
     DirectionGrid directions_;
