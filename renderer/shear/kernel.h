@@ -73,7 +73,7 @@ struct Rays {
 inline constexpr int ray_padding = 32;
 // A tile's pixels along the fast and along the slow axis.
 inline constexpr int widest_tile = 128;
-inline constexpr int tallest_tile = 72;
+inline constexpr int tallest_tile = 80;
 
 // What of a sample's corners has to be valid: one half, which rounding does not undo.
 inline constexpr float least_valid = 0.4999F;

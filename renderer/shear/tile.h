@@ -32,7 +32,10 @@ class Tile {
     // Where there is little to be seen, most of the work is done once for every tile and layer.
     static int rows_of(const BrickVolume& volume, const FacePlan& plan, bool sparse) {
         constexpr int usual = 32, turned = 48;
-        static_assert(turned < height);
+        // No two tiles light a block of pixels, whichever way they lie.
+        constexpr int block = image::LitBlocks::block;
+        static_assert(turned < height && width % block == 0 && height % block == 0 && turned % block == 0 &&
+                      usual % block == 0);
         const int axis = plan.face().axis;
         const bool turns = TileVoxels<Code>::turns(volume.level(plan.level()).best_for(axis), axis);
         return sparse ? height : turns ? turned : usual;
