@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "common/image/warp.h"
 #include "tests/support/reference_raycaster.h"
 #include "tests/support/reference_views.h"
