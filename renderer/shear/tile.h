@@ -86,7 +86,7 @@ class Tile {
     void render_sparse(Slices slices, std::span<const std::int64_t> numbers);
     bool is_seen(const Piece& piece, std::int64_t half_layer) const;
     void find_seen(std::int64_t half_layer, const std::array<MicroRun, 2>& octants);
-    void fetch(const typename SparsePieces<Code>::Copied& copied, std::int64_t half_layer) const;
+    void fetch(const typename SparsePieces<Code>::Copied& copied, const VoxelRegion& nodes) const;
     bool is_in_one_brick(const VoxelRegion& region) const;
     bool composite(Slices slices, std::span<const std::int64_t> numbers, Slab<Code>& slab);
     void render_part(Slices slices, std::span<const std::int64_t> numbers, Visit visit, bool whole);
@@ -142,6 +142,7 @@ class Tile {
     struct Seen {
         std::array<double, 3> distance;  // of its column, its rows and itself
         const typename SparsePieces<Code>::Copied* copied;
+        VoxelRegion nodes;  // that it has
     };
     std::vector<Seen> seen_;
 };

@@ -25,7 +25,7 @@ void Tile<Code>::render_sparse(Slices slices, std::span<const std::int64_t> numb
         const auto wanted = Slices(part.slices).first(part.count);
         const auto wanted_numbers = std::span(part.numbers).first(part.count);
         // All of a piece's nodes are there: which of them the samples lie between need not be known.
-        const VoxelRegion nodes = pieces_->nodes_of(half_layer, seen.copied->piece);
+        const VoxelRegion& nodes = seen.nodes;
         Slab<Code> slab = slab_at(wanted, wanted_numbers, nodes, seen.copied->piece.visit,
                                   pieces_->find(*seen.copied, nodes));
         if (composite(wanted, wanted_numbers, slab)) {
@@ -55,12 +55,14 @@ void Tile<Code>::find_seen(std::int64_t half_layer, const std::array<MicroRun, 2
                 (some_hidden_ && !is_seen(piece, half_layer))) {
                 continue;
             }
-            fetch(copied, half_layer);
+            const VoxelRegion nodes = pieces_->nodes_of(half_layer, piece);
+            fetch(copied, nodes);
             // A ray goes away from the eye along both axes.
             seen_.push_back({{distance_along(plan_.fast_axis(), {n * column, (n + 1) * column}),
                               distance_along(plan_.slow_axis(), piece.slow),
                               distance_along(plan_.fast_axis(), piece.fast)},
-                             &copied});
+                             &copied,
+                             nodes});
         }
     }
     if (seen_.size() > 1) {
@@ -69,8 +71,7 @@ void Tile<Code>::find_seen(std::int64_t half_layer, const std::array<MicroRun, 2
 }
 
 template <class Code>
-void Tile<Code>::fetch(const typename SparsePieces<Code>::Copied& copied, std::int64_t half_layer) const {
-    const VoxelRegion nodes = pieces_->nodes_of(half_layer, copied.piece);
+void Tile<Code>::fetch(const typename SparsePieces<Code>::Copied& copied, const VoxelRegion& nodes) const {
     const VoxelPlace<Code> place = pieces_->find(copied, nodes);
     const auto bytes = place.plane_stride * nodes.count(2) * static_cast<std::ptrdiff_t>(sizeof(Code));
     Fetching({.first = reinterpret_cast<const char*>(place.first),
@@ -108,12 +109,13 @@ bool Tile<Code>::is_in_one_brick(const VoxelRegion& region) const {
 
 template void Tile<std::uint8_t>::render_sparse(Slices, std::span<const std::int64_t>);
 template void Tile<std::uint8_t>::find_seen(std::int64_t, const std::array<MicroRun, 2>&);
-template void Tile<std::uint8_t>::fetch(const SparsePieces<std::uint8_t>::Copied&, std::int64_t) const;
+template void Tile<std::uint8_t>::fetch(const SparsePieces<std::uint8_t>::Copied&, const VoxelRegion&) const;
 template bool Tile<std::uint8_t>::is_seen(const Piece&, std::int64_t) const;
 template bool Tile<std::uint8_t>::is_in_one_brick(const VoxelRegion&) const;
 template void Tile<std::uint16_t>::render_sparse(Slices, std::span<const std::int64_t>);
 template void Tile<std::uint16_t>::find_seen(std::int64_t, const std::array<MicroRun, 2>&);
-template void Tile<std::uint16_t>::fetch(const SparsePieces<std::uint16_t>::Copied&, std::int64_t) const;
+template void Tile<std::uint16_t>::fetch(const SparsePieces<std::uint16_t>::Copied&,
+                                         const VoxelRegion&) const;
 template bool Tile<std::uint16_t>::is_seen(const Piece&, std::int64_t) const;
 template bool Tile<std::uint16_t>::is_in_one_brick(const VoxelRegion&) const;
 
