@@ -110,6 +110,11 @@ void OpacityTable::fill_bytes() {
     }
 }
 
+OpacityTable::Codes OpacityTable::opaque_codes() const {
+    const auto codes = static_cast<std::int64_t>(1 / nodes_per_code_);  // from one node to the next
+    return {(first_opaque_ - 1) * codes + 1, (last_opaque_ + 1) * codes - 1};
+}
+
 bool OpacityTable::any_opacity(std::uint16_t min, std::uint16_t max) const {
     if (min > max) {
         return false;

@@ -55,6 +55,12 @@ class OpacityTable {
     // Nodes before the first and after the last of these have no extinction; first > last if none has any.
     int first_opaque() const { return first_opaque_; }
     int last_opaque() const { return last_opaque_; }
+    // What lies between codes that are all less than the first of these, or all greater than the last, has no
+    // opacity.
+    struct Codes {
+        std::int64_t first, last;
+    };
+    Codes opaque_codes() const;
     // Whether some code from min to max, interpolated ones included, has opacity; none has if min > max.
     bool any_opacity(std::uint16_t min, std::uint16_t max) const;
 

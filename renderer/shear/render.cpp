@@ -213,9 +213,10 @@ template <class Code>
 const SparsePieces<Code>* pieces_of(const Frame& frame, const FacePlan& plan, base::Workers& workers) {
     const auto level = static_cast<std::size_t>(plan.level());
     const Classification& by = frame.classification;
-    return by.is_sparse[level] ? &by.sparse->pieces<Code>(frame.volume.level(plan.level()), plan.level(),
-                                                          by.micro_bricks[level], plan.face().axis, workers)
-                               : nullptr;
+    return by.is_sparse[level]
+               ? &by.sparse->pieces<Code>(frame.volume.level(plan.level()), plan.level(), by.table,
+                                          by.micro_bricks[level], plan.face().axis, workers)
+               : nullptr;
 }
 
 template <class Code>

@@ -29,7 +29,7 @@ class SparsePieces<Code>::Adding {
 
     std::size_t begin() const { return begin_; }
     void add(std::int64_t row, std::vector<OctantRun>& runs) {
-        if (!runs.empty() && runs == last_runs_) {
+        if (!runs.empty() && runs == last_runs_ && row - found_.pieces[last_].piece.slow.first < most_rows) {
             for (Copied& copied : std::span(found_.pieces).subspan(last_)) {
                 ++copied.piece.slow.end;
             }
@@ -50,9 +50,9 @@ class SparsePieces<Code>::Adding {
 };
 
 template <class Code>
-SparsePieces<Code>::SparsePieces(const CodeVolume& codes, std::span<const Content> contents, int axis,
-                                 base::Workers& workers)
-    : codes_(codes), axes_(axes_of(axis)) {
+SparsePieces<Code>::SparsePieces(const CodeVolume& codes, const OpacityTable& table,
+                                 std::span<const Content> contents, int axis, base::Workers& workers)
+    : codes_(codes), opaque_codes_(table.opaque_codes()), axes_(axes_of(axis)) {
     const volume::Index3& counts = codes.micro_bricks().counts();
     for (std::size_t n = 0; n < octants_.size(); ++n) {
         octants_[n] = {0, 2 * counts[static_cast<std::size_t>(axes_[n])]};
@@ -138,7 +138,7 @@ template <class Code>
 void SparsePieces<Code>::copy_voxels(std::int64_t half_layer) {
     const CodeArray& codes = codes_.best_for(axes_[2]);
     const std::size_t first = begins_[slot(half_layer)], end = begins_[slot(half_layer + 1)];
-    const auto pieces = std::span<const Copied>(pieces_).subspan(first, end - first);
+    const auto pieces = std::span(pieces_).subspan(first, end - first);
     // They lie too strewn for the processor to foresee what comes next.
     constexpr std::size_t ahead = 3;
     const auto fetch = [&](std::size_t n) {
@@ -152,7 +152,7 @@ void SparsePieces<Code>::copy_voxels(std::int64_t half_layer) {
     }
     for (std::size_t n = 0; n < pieces.size(); ++n) {
         fetch(n + ahead);
-        const Copied& copied = pieces[n];
+        Copied& copied = pieces[n];
         const VoxelRegion nodes = nodes_of(half_layer, copied.piece);
         volume::Index3 at;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -163,11 +163,17 @@ void SparsePieces<Code>::copy_voxels(std::int64_t half_layer) {
         for (std::int64_t w = 0; w < nodes.count(2); ++w) {
             for (std::int64_t v = 0; v < nodes.count(1); ++v) {
                 const Code* from = lowest + w * codes.stride(axes_[2]) + v * codes.stride(axes_[1]);
+                if (codes.stride(axes_[0]) == 1) {
+                    to = std::copy_n(from, nodes.count(0), to);
+                    continue;
+                }
                 for (std::int64_t u = 0; u < nodes.count(0); ++u, from += codes.stride(axes_[0])) {
                     *to++ = *from;
                 }
             }
         }
+        find_opaque_cells<Code>({&voxels_[copied.first], nodes.count(0), nodes.count(1), nodes.count(2)},
+                                opaque_codes_, copied.opaque);
     }
 }
 
@@ -180,7 +186,7 @@ bool SparseFaces::pay(std::uint64_t opaque, std::uint64_t octants) {
 }
 
 template <class Code>
-const SparsePieces<Code>& SparseFaces::pieces(const CodeVolume& codes, int level,
+const SparsePieces<Code>& SparseFaces::pieces(const CodeVolume& codes, int level, const OpacityTable& table,
                                               std::span<const Content> contents, int axis,
                                               base::Workers& workers) {
     const std::lock_guard lock(mutex_);
@@ -197,14 +203,14 @@ const SparsePieces<Code>& SparseFaces::pieces(const CodeVolume& codes, int level
     }
     auto& pieces = levels[static_cast<std::size_t>(level)][static_cast<std::size_t>(axis)];
     if (!pieces) {
-        pieces = std::make_unique<const SparsePieces<Code>>(codes, contents, axis, workers);
+        pieces = std::make_unique<const SparsePieces<Code>>(codes, table, contents, axis, workers);
     }
     return *pieces;
 }
 
-template const SparsePieces<std::uint8_t>& SparseFaces::pieces(const CodeVolume&, int,
+template const SparsePieces<std::uint8_t>& SparseFaces::pieces(const CodeVolume&, int, const OpacityTable&,
                                                                std::span<const Content>, int, base::Workers&);
-template const SparsePieces<std::uint16_t>& SparseFaces::pieces(const CodeVolume&, int,
+template const SparsePieces<std::uint16_t>& SparseFaces::pieces(const CodeVolume&, int, const OpacityTable&,
                                                                 std::span<const Content>, int,
                                                                 base::Workers&);
 

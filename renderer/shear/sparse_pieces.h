@@ -10,6 +10,8 @@
 //   slow  o---+--------+---------+
 //    v    |  ###    ## |    ##   |         what is alike in rows that follow one another is one piece
 //         |  ### #  ## |    ##   |
+//
+// Of most octants few cells may be seen: which of a piece is told for each of its planes.
 
 #include <array>
 #include <cstdint>
@@ -21,6 +23,7 @@
 #include "common/base/workers.h"
 #include "renderer/shear/code_volume.h"
 #include "renderer/shear/octant_runs.h"
+#include "renderer/shear/plane_cells.h"
 #include "renderer/shear/voxel_region.h"
 
 namespace shearwater::shear {
@@ -34,16 +37,19 @@ struct Piece {
 template <class Code>
 class SparsePieces {
   public:
-    static constexpr std::int64_t column = 32;  // octants
+    static constexpr std::int64_t column = 32;     // octants
+    static constexpr std::int64_t most_rows = 32;  // of octants of a piece
 
     // Of the micro-bricks' contents of a level, for faces across an axis. The codes have to outlive
     // it.
-    SparsePieces(const CodeVolume& codes, std::span<const Content> contents, int axis,
-                 base::Workers& workers);
+    SparsePieces(const CodeVolume& codes, const OpacityTable& table, std::span<const Content> contents,
+                 int axis, base::Workers& workers);
 
     struct Copied {
         Piece piece;
         std::size_t first = 0;  // of its voxels
+        // Which of its cells, as find_opaque_cells has them.
+        std::array<PlaneCells, 2 * CodeVolume::octant_edge + 1> opaque{};
     };
     // Of a column of a half layer, both counted from the sub-volume's first: rows by rows, and along them.
     std::span<const Copied> in(std::int64_t half_layer, std::int64_t column_number) const {
@@ -72,12 +78,13 @@ class SparsePieces {
     using FoundInHalves = std::array<Found, 2>;
     class Adding;
     FoundInHalves found_in(std::int64_t layer, std::span<const Content> contents) const;
-    void copy_voxels(std::int64_t half_layer);
+    void copy_voxels(std::int64_t half_layer);  // and find which cells may be seen
     std::size_t slot(std::int64_t half_layer) const {
         return static_cast<std::size_t>(half_layer) * columns_;
     }
 
     const CodeVolume& codes_;
+    const OpacityTable::Codes opaque_codes_;
     std::array<int, 3> axes_;  // fast, slow and principal
     std::array<MicroRun, 2> octants_;
     std::size_t columns_;
@@ -94,8 +101,8 @@ class SparseFaces {
 
     // Found and copied when they are first asked for, which takes less than the volume takes longer to draw.
     template <class Code>
-    const SparsePieces<Code>& pieces(const CodeVolume& codes, int level, std::span<const Content> contents,
-                                     int axis, base::Workers& workers);
+    const SparsePieces<Code>& pieces(const CodeVolume& codes, int level, const OpacityTable& table,
+                                     std::span<const Content> contents, int axis, base::Workers& workers);
 
   private:
     template <class Code>

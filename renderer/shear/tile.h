@@ -83,6 +83,8 @@ class Tile {
                         int half, const MicroRun& fast, const MicroRun& slow);
     Part part_of(Slices slices, std::span<const std::int64_t> numbers, const Piece& piece,
                  const MicroRun& fast, const MicroRun& slow) const;
+    Part part_of(Slices slices, std::span<const std::int64_t> numbers,
+                 const typename SparsePieces<Code>::Copied& copied, const VoxelRegion& nodes) const;
     void render_sparse(Slices slices, std::span<const std::int64_t> numbers);
     bool is_seen(const Piece& piece, std::int64_t half_layer) const;
     void find_seen(std::int64_t half_layer, const std::array<MicroRun, 2>& octants);

@@ -3,9 +3,12 @@
 #include <algorithm>
 
 #include "renderer/shear/fetching.h"
+#include "renderer/shear/pixels_within.h"
 #include "renderer/shear/tile.h"
 
 namespace shearwater::shear {
+
+using view::PixelRange;
 
 // Slices that lie in one half layer of micro-bricks, each with some pixels.
 template <class Code>
@@ -13,9 +16,8 @@ void Tile<Code>::render_sparse(Slices slices, std::span<const std::int64_t> numb
     const std::int64_t half_layer = layer_of<CodeVolume::octant_edge>(numbers.front());
     find_seen(half_layer,
               runs_of(region_of(slices, numbers, nodes_of(codes_.own())), CodeVolume::octant_edge));
-    const auto& [all_fast, all_slow] = pieces_->octants();
     for (const Seen& seen : seen_) {
-        const Part part = part_of(slices, numbers, seen.copied->piece, all_fast, all_slow);
+        const Part part = part_of(slices, numbers, *seen.copied, seen.nodes);
         if (part.count == 0) {
             continue;
         }
@@ -32,6 +34,45 @@ void Tile<Code>::render_sparse(Slices slices, std::span<const std::int64_t> numb
             note_met(is_in_one_brick(nodes) ? nodes : region_of(wanted, wanted_numbers, nodes));
         }
     }
+}
+
+// What of some slices lies in the cells of a piece that may have opacity.
+template <class Code>
+typename Tile<Code>::Part Tile<Code>::part_of(Slices slices, std::span<const std::int64_t> numbers,
+                                              const typename SparsePieces<Code>::Copied& copied,
+                                              const VoxelRegion& nodes) const {
+    const auto& [all_fast, all_slow] = pieces_->octants();
+    const Piece& piece = copied.piece;
+    // Beyond the sub-volume's ends there are no samples.
+    const auto within = [&](const PixelRange& pixels, double offset, double scale, std::size_t n,
+                            const MicroRun& octants, const MicroRun& all, std::int64_t first,
+                            std::int64_t end) {
+        const std::int64_t lo = nodes.lo[n];
+        return pixels_within(pixels, offset, scale, static_cast<double>(lo + first),
+                             static_cast<double>(lo + end), octants.first == all.first && first == 0,
+                             octants.end == all.end && lo + end >= nodes.hi[n]);
+    };
+    Part part;
+    for (std::size_t n = 0; n < slices.size(); ++n) {
+        const Slice<Code>& slice = slices[n];
+        const double plane = 2 * (plan_.node_place(numbers[n]) - static_cast<double>(nodes.lo[2]));
+        const PlaneCells& cells = copied.opaque[static_cast<std::size_t>(plane)];
+        if (cells.empty()) {
+            continue;
+        }
+        const PixelRange columns =
+            within({slice.pixels.x0, slice.pixels.x1}, slice.fast_offset + slice.fast_scale * rect_.x0,
+                   slice.fast_scale, 0, piece.fast, all_fast, cells.fast_first, cells.fast_end);
+        const PixelRange rows =
+            within({slice.pixels.y0, slice.pixels.y1}, slice.slow_offset + slice.slow_scale * rect_.y0,
+                   slice.slow_scale, 1, piece.slow, all_slow, cells.slow_first, cells.slow_end);
+        if (!columns.empty() && !rows.empty()) {
+            part.slices[part.count] = slice;
+            part.slices[part.count].pixels = {columns.first, rows.first, columns.last, rows.last};
+            part.numbers[part.count++] = numbers[n];
+        }
+    }
+    return part;
 }
 
 // The pieces that lie in some of a half layer's octants along the fast and the slow axis, front to back;
@@ -108,11 +149,17 @@ bool Tile<Code>::is_in_one_brick(const VoxelRegion& region) const {
 }
 
 template void Tile<std::uint8_t>::render_sparse(Slices, std::span<const std::int64_t>);
+template Tile<std::uint8_t>::Part Tile<std::uint8_t>::part_of(Slices, std::span<const std::int64_t>,
+                                                              const SparsePieces<std::uint8_t>::Copied&,
+                                                              const VoxelRegion&) const;
 template void Tile<std::uint8_t>::find_seen(std::int64_t, const std::array<MicroRun, 2>&);
 template void Tile<std::uint8_t>::fetch(const SparsePieces<std::uint8_t>::Copied&, const VoxelRegion&) const;
 template bool Tile<std::uint8_t>::is_seen(const Piece&, std::int64_t) const;
 template bool Tile<std::uint8_t>::is_in_one_brick(const VoxelRegion&) const;
 template void Tile<std::uint16_t>::render_sparse(Slices, std::span<const std::int64_t>);
+template Tile<std::uint16_t>::Part Tile<std::uint16_t>::part_of(Slices, std::span<const std::int64_t>,
+                                                                const SparsePieces<std::uint16_t>::Copied&,
+                                                                const VoxelRegion&) const;
 template void Tile<std::uint16_t>::find_seen(std::int64_t, const std::array<MicroRun, 2>&);
 template void Tile<std::uint16_t>::fetch(const SparsePieces<std::uint16_t>::Copied&,
                                          const VoxelRegion&) const;

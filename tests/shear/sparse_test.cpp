@@ -90,7 +90,7 @@ void expect_pieces_hold_all(const BrickVolume& volume, int level, int axis, base
     const auto classification = shear::classify(volume, above_half, view::Classify::post, workers);
     const auto& contents = classification.micro_bricks[static_cast<std::size_t>(level)];
     const CodeVolume& codes = volume.level(level);
-    const SparsePieces<Code> pieces(codes, contents, axis, workers);
+    const SparsePieces<Code> pieces(codes, classification.table, contents, axis, workers);
     const std::array<int, 3> axes{axis == 0 ? 1 : 0, axis == 2 ? 1 : 2, axis};
     const auto turned = [&](std::int64_t fast, std::int64_t slow, std::int64_t principal) {
         Index3 at;
