@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 #include <utility>
 
 #include "common/base/check.h"
@@ -113,7 +114,7 @@ FunctionStore::Combined FunctionStore::combined(Footprint footprint) const {
             members.push_back(member);
         }
     }
-    return {footprint, most, greatest, std::move(scaled), Combination(members), {}};
+    return {footprint, most, greatest, std::move(scaled), Combination(members)};
 }
 
 std::vector<BlockRates> FunctionStore::rates(const view::TransferFunction& tf, Kind kind, int level,
@@ -139,14 +140,25 @@ std::vector<BlockRates> FunctionStore::rates(const view::TransferFunction& tf, K
     return rates;
 }
 
-std::vector<BlockRates::Codes> FunctionStore::codes_of(Combined& combined, std::span<const int> cells,
-                                                       base::Workers& workers) const {
-    std::vector<BlockRates::Codes> codes;
+std::vector<BlockCodes> FunctionStore::codes_of(Combined& combined, std::span<const int> cells,
+                                                base::Workers& workers) const {
+    const auto of_cell = [&](std::size_t table, int cell) {
+        return std::span(combined.scaled[table].table->codes)
+            .subspan(static_cast<std::size_t>(cell) * grid_.size(), grid_.size());
+    };
+    std::vector<BlockCodes> codes;
     if (combined.scaled.size() == 1) {
-        for (const int cell : cells) {
-            codes.push_back(BlockRates::Codes(combined.scaled[0].table->codes)
-                                .subspan(static_cast<std::size_t>(cell) * grid_.size(), grid_.size()));
+        std::ranges::transform(cells, std::back_inserter(codes),
+                               [&](int cell) { return BlockCodes(of_cell(0, cell)); });
+        return codes;
+    }
+    if (combined.scaled.size() == 2) {
+        if (combined.of_pairs.empty()) {
+            combine_pairs(combined, workers);
         }
+        std::ranges::transform(cells, std::back_inserter(codes), [&](int cell) {
+            return BlockCodes(of_cell(0, cell), of_cell(1, cell), combined.of_pairs);
+        });
         return codes;
     }
     std::vector<std::pair<int, std::vector<std::uint8_t>*>> missing;
@@ -158,9 +170,6 @@ std::vector<BlockRates::Codes> FunctionStore::codes_of(Combined& combined, std::
         }
         codes.emplace_back(of);
     }
-    if (!missing.empty() && combined.scaled.size() == 2 && combined.of_pairs.empty()) {
-        combine_pairs(combined, workers);
-    }
     workers.for_each(static_cast<std::int64_t>(missing.size()), [&](std::int64_t n) {
         const auto& [cell, of] = missing[static_cast<std::size_t>(n)];
         combine(combined, cell, *of);
@@ -168,7 +177,8 @@ std::vector<BlockRates::Codes> FunctionStore::codes_of(Combined& combined, std::
     return codes;
 }
 
-// Of 65536 pairs, where a cell may have as many blocks, and a view dozens of cells.
+// Of 65536 pairs, where a cell may have as many blocks, and a view dozens of cells: what two codes combine to
+// is then looked up where a beam comes to a block.
 void FunctionStore::combine_pairs(Combined& combined, base::Workers& workers) {
     constexpr std::size_t codes = 256;
     combined.of_pairs.resize(codes * codes);
@@ -184,15 +194,6 @@ void FunctionStore::combine_pairs(Combined& combined, base::Workers& workers) {
 
 void FunctionStore::combine(const Combined& combined, int cell, std::span<std::uint8_t> codes) const {
     const std::size_t first = static_cast<std::size_t>(cell) * grid_.size();
-    const auto codes_of_cell = [&](const Scaled& scaled) {
-        return std::span(scaled.table->codes).subspan(first, codes.size());
-    };
-    if (combined.scaled.size() == 2) {
-        std::ranges::transform(
-            codes_of_cell(combined.scaled[0]), codes_of_cell(combined.scaled[1]), codes.begin(),
-            [&](std::uint8_t a, std::uint8_t b) { return combined.of_pairs[std::size_t{a} << 8U | b]; });
-        return;
-    }
     Combining combining(combined.combination, combined.most);
     std::vector<float> rates(combined.scaled.size());
     for (std::size_t block = 0; block < codes.size(); ++block) {

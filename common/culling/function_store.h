@@ -62,14 +62,14 @@ class FunctionStore {
         float greatest;  // that there is
         std::vector<Scaled> scaled;
         Combination combination;
-        std::map<int, std::vector<std::uint8_t>> of;  // by direction cell, unless there is but one table
-        std::vector<std::uint8_t> of_pairs = {};      // where there are two, of any two codes
+        std::vector<std::uint8_t> of_pairs = {};           // where there are two tables, of any two codes
+        std::map<int, std::vector<std::uint8_t>> of = {};  // where there are more, by direction cell
     };
 
     const Kept* kept(const FunctionKey& key) const;
     Combined combined(Footprint footprint) const;
-    std::vector<BlockRates::Codes> codes_of(Combined& combined, std::span<const int> cells,
-                                            base::Workers& workers) const;
+    std::vector<BlockCodes> codes_of(Combined& combined, std::span<const int> cells,
+                                     base::Workers& workers) const;
     void combine(const Combined& combined, int cell, std::span<std::uint8_t> codes) const;
     static void combine_pairs(Combined& combined, base::Workers& workers);
 

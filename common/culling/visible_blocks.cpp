@@ -27,8 +27,8 @@ double depth_that_hides(const Settings& settings) {
 // What functions of one footprint say along the beams of a face.
 struct Said {
     const std::array<float, 256>& rate;
-    std::vector<Counted> u, v;               // of a side's slabs, one side after the other
-    std::vector<const std::uint8_t*> codes;  // of each beam's cells
+    std::vector<Counted> u, v;      // of a side's slabs, one side after the other
+    std::vector<BlockCodes> codes;  // of each cell that is needed
 };
 
 class FacePass {
@@ -46,21 +46,12 @@ class FacePass {
           v_met_(beams_.met(beams_.v(), face.v_axis())) {
         const DirectionGrid& directions = rates.front().directions;
         cells_ = beams_.cells(directions, workers);
-        std::vector<std::uint8_t> needed(static_cast<std::size_t>(directions.cells()));
-        for (const int cell : cells_.cells) {
-            needed[static_cast<std::size_t>(cell)] = 1;
-        }
-        std::vector<int> each;
-        for (std::size_t cell = 0; cell < needed.size(); ++cell) {
-            if (needed[cell] != 0) {
-                each.push_back(static_cast<int>(cell));
-            }
-        }
+        const std::vector<int> needed = count_needed(directions);
         for (const BlockRates& of : rates) {
             base::check(of.directions == directions, "a cube's functions are over the same directions");
             said_.push_back({of.rate, beams_.counted(beams_.u(), face.u_axis(), of.footprint),
                              beams_.counted(beams_.v(), face.v_axis(), of.footprint),
-                             codes_of(of, each, workers)});
+                             of.of(needed, workers)});
         }
     }
 
@@ -74,18 +65,19 @@ class FacePass {
     }
 
   private:
-    // All that will be needed, before several threads do.
-    std::vector<const std::uint8_t*> codes_of(const BlockRates& rates, std::span<const int> needed,
-                                              base::Workers& workers) const {
-        const std::vector<BlockRates::Codes> codes = rates.of(needed, workers);
-        std::vector<const std::uint8_t*> by_cell(static_cast<std::size_t>(rates.directions.cells()));
-        for (std::size_t n = 0; n < needed.size(); ++n) {
-            by_cell[static_cast<std::size_t>(needed[n])] = codes[n].data();
+    // The cells that beams need, each once; of the beams' is kept which of those it is.
+    std::vector<int> count_needed(const DirectionGrid& directions) {
+        std::vector<int> place(static_cast<std::size_t>(directions.cells()), -1);
+        std::vector<int> needed;
+        for (int& cell : cells_.cells) {
+            int& of_cell = place[static_cast<std::size_t>(cell)];
+            if (of_cell < 0) {
+                of_cell = static_cast<int>(needed.size());
+                needed.push_back(cell);
+            }
+            cell = of_cell;
         }
-        std::vector<const std::uint8_t*> of(cells_.cells.size());
-        std::ranges::transform(cells_.cells, of.begin(),
-                               [&](int cell) { return by_cell[static_cast<std::size_t>(cell)]; });
-        return of;
+        return needed;
     }
 
     void pass(std::size_t i, std::size_t j) {
@@ -131,11 +123,19 @@ class FacePass {
         const std::size_t beam = j * beams_.u().size() + i;
         std::uint8_t least = 255;
         for (std::size_t n = cells_.first_of[beam]; n < cells_.first_of[beam + 1]; ++n) {
-            const std::uint8_t* const of = said.codes[n];
-            for (std::int64_t v = by_v.first; v <= by_v.last; ++v) {
-                for (std::int64_t u = by_u.first; u <= by_u.last; ++u) {
-                    least = std::min(least, of[slab_first + v * across_v + u * across_u]);
+            const BlockCodes& of = said.codes[static_cast<std::size_t>(cells_.cells[n])];
+            const auto of_blocks = [&](const auto& code) {
+                for (std::int64_t v = by_v.first; v <= by_v.last; ++v) {
+                    for (std::int64_t u = by_u.first; u <= by_u.last; ++u) {
+                        least = std::min(
+                            least, code(static_cast<std::size_t>(slab_first + v * across_v + u * across_u)));
+                    }
                 }
+            };
+            if (of.paired()) {
+                of_blocks([&](std::size_t block) { return of.of_pair(block); });
+            } else {
+                of_blocks([&](std::size_t block) { return of.alone(block); });
             }
         }
         if (least == 0) {

@@ -18,6 +18,7 @@
 // what is left out lies behind that depth, on every ray.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -31,15 +32,36 @@
 
 namespace shearwater::culling {
 
+// A code for each of the grid's blocks: that of a table, or what those of two tables combine to.
+class BlockCodes {
+  public:
+    explicit BlockCodes(std::span<const std::uint8_t> codes) : first_(codes) {}
+    // The code of a and b is of_pairs[256 a + b].
+    BlockCodes(std::span<const std::uint8_t> first, std::span<const std::uint8_t> second,
+               std::span<const std::uint8_t> of_pairs)
+        : first_(first), second_(second.data()), of_pairs_(of_pairs.data()) {}
+
+    std::size_t size() const { return first_.size(); }
+    bool paired() const { return second_ != nullptr; }
+    std::uint8_t operator[](std::size_t block) const { return paired() ? of_pair(block) : alone(block); }
+    // The same where it is known which.
+    std::uint8_t alone(std::size_t block) const { return first_[block]; }
+    std::uint8_t of_pair(std::size_t block) const {
+        return of_pairs_[std::size_t{first_[block]} << 8U | second_[block]];
+    }
+
+  private:
+    std::span<const std::uint8_t> first_;
+    const std::uint8_t* second_ = nullptr;
+    const std::uint8_t* of_pairs_ = nullptr;
+};
+
 // Of functions of one footprint.
 struct BlockRates {
     Footprint footprint;
-    // A code for each of the grid's blocks.
-    using Codes = std::span<const std::uint8_t>;
-
     DirectionGrid directions;
     // Of lines of each of some of the directions' cells. What this gives lasts as long as it does.
-    std::function<std::vector<Codes>(std::span<const int> cells, base::Workers& workers)> of;
+    std::function<std::vector<BlockCodes>(std::span<const int> cells, base::Workers& workers)> of;
     // Of a code, rising with it: optical depth along the smallest distance of two voxels.
     std::array<float, 256> rate;
     float greatest;  // no block's is more, in no direction
