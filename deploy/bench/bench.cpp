@@ -14,6 +14,8 @@ namespace shearwater::deploy {
 Run add_bench(CLI::App& app) {
     using Add = Run (*)(CLI::App&);
     const std::vector<std::tuple<const char*, const char*, Add>> benchmarks{
+        {"kernels", "the inner loop alone, by each kind of vectors that this processor has",
+         bench::add_kernels},
         {"frame", "frames in one process, by stage", bench::add_frame},
         {"trees", "frames by trees of 3 to 31 local daemons: the paper's Table 1", bench::add_trees},
         {"images", "frames of several sizes: the paper's Table 2", bench::add_images},

@@ -7,6 +7,7 @@ namespace shearwater::bench {
 
 using deploy::Run;
 
+Run add_kernels(CLI::App& app);
 Run add_frame(CLI::App& app);
 Run add_trees(CLI::App& app);
 Run add_images(CLI::App& app);
