@@ -14,7 +14,7 @@
 #include <hwy/highway.h>
 
 #include "renderer/shear/kernel_common-inl.h"
-#include "renderer/shear/kernel_gather-inl.h"
+#include "renderer/shear/kernel_general-inl.h"
 #include "renderer/shear/kernel_permute-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,13 +26,13 @@ std::uint64_t composite_8(const Slab<std::uint8_t>& slab, const OpacityTable& ta
         return composite_permuting(slab, table, rays);
     }
 #endif
-    return slab.blanks ? composite_gathering<true>(slab, table, rays)
-                       : composite_gathering<false>(slab, table, rays);
+    return slab.blanks ? composite_in_general<true>(slab, table, rays)
+                       : composite_in_general<false>(slab, table, rays);
 }
 
 std::uint64_t composite_16(const Slab<std::uint16_t>& slab, const OpacityTable& table, const Rays& rays) {
-    return slab.blanks ? composite_gathering<true>(slab, table, rays)
-                       : composite_gathering<false>(slab, table, rays);
+    return slab.blanks ? composite_in_general<true>(slab, table, rays)
+                       : composite_in_general<false>(slab, table, rays);
 }
 
 }  // namespace shearwater::shear::HWY_NAMESPACE

@@ -44,15 +44,15 @@ HWY_INLINE V opacity_of_halvings(D d, V y) {
     return hn::NegMulAdd(scale, hn::Mul(p, f), hn::Sub(hn::Set(d, 1.0F), scale));
 }
 
-// What a vector of rays has gathered.
-template <class D>
+// What a vector of rays has gathered: in one hue, of r alone.
+template <class D, bool one_hue = false>
 struct Gathered {
     hn::Vec<D> r, g, b, a;
 
     HWY_INLINE Gathered(D d, const Rays& rays, std::ptrdiff_t ray)
         : r(hn::LoadU(d, rays.r + ray)),
-          g(hn::LoadU(d, rays.g + ray)),
-          b(hn::LoadU(d, rays.b + ray)),
+          g(one_hue ? hn::Zero(d) : hn::LoadU(d, rays.g + ray)),
+          b(one_hue ? hn::Zero(d) : hn::LoadU(d, rays.b + ray)),
           a(hn::LoadU(d, rays.a + ray)) {}
     HWY_INLINE void put_behind(hn::Vec<D> alpha, hn::Vec<D> red, hn::Vec<D> green, hn::Vec<D> blue) {
         const auto weight = hn::NegMulAdd(a, alpha, alpha);
@@ -63,8 +63,10 @@ struct Gathered {
     }
     HWY_INLINE void store(D d, const Rays& rays, std::ptrdiff_t ray) const {
         hn::StoreU(r, d, rays.r + ray);
-        hn::StoreU(g, d, rays.g + ray);
-        hn::StoreU(b, d, rays.b + ray);
+        if constexpr (!one_hue) {
+            hn::StoreU(g, d, rays.g + ray);
+            hn::StoreU(b, d, rays.b + ray);
+        }
         hn::StoreU(a, d, rays.a + ray);
     }
 };

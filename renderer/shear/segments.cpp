@@ -13,7 +13,7 @@
 #include <hwy/highway.h>
 
 #include "renderer/shear/kernel_common-inl.h"
-#include "renderer/shear/kernel_gather-inl.h"
+#include "renderer/shear/kernel_samples-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace shearwater::shear::HWY_NAMESPACE {
