@@ -22,12 +22,12 @@ namespace shearwater::shear::HWY_NAMESPACE {
 
 std::uint64_t composite_8(const Slab<std::uint8_t>& slab, const OpacityTable& table, const Rays& rays) {
 #if HWY_TARGET == HWY_AVX3_DL
-    if (!slab.blanks) {
-        return composite_permuting(slab, table, rays);
-    }
-#endif
+    return slab.blanks ? composite_permuting<true>(slab, table, rays)
+                       : composite_permuting<false>(slab, table, rays);
+#else
     return slab.blanks ? composite_in_general<true>(slab, table, rays)
                        : composite_in_general<false>(slab, table, rays);
+#endif
 }
 
 std::uint64_t composite_16(const Slab<std::uint16_t>& slab, const OpacityTable& table, const Rays& rays) {

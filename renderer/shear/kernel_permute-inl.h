@@ -1,4 +1,4 @@
-// The kernel for 8-bit codes without blanks where tables are looked up by permuting bytes (AVX-512 with VBMI
+// The kernel for 8-bit codes where tables are looked up by permuting bytes (AVX-512 with VBMI
 // and VNNI). It takes a chunk of up to 32 pixels of a row on two slices at a time, and keeps what their rays
 // gather in registers from slice to slice.
 //
@@ -244,7 +244,7 @@ struct Prepared {
 };
 
 // One row of a chunk on all slices.
-template <bool between_nodes, bool one_hue, bool narrow>
+template <bool blanks, bool between_nodes, bool one_hue, bool narrow>
 HWY_INLINE std::uint64_t composite_row_of_chunk(const Slab<std::uint8_t>& slab, const Prepared& prepared,
                                                 const OpacityTable& table, const Rays& rays, int i, int j) {
     const std::ptrdiff_t ray = j * rays.stride + i;
@@ -267,14 +267,15 @@ HWY_INLINE std::uint64_t composite_row_of_chunk(const Slab<std::uint8_t>& slab, 
             continue;
         }
         taken += static_cast<std::uint64_t>(std::popcount(wanted));
-        const __m512i codes = codes_along<narrow>(slab, slice, j, prepared.rows[k], prepared.permutations[k]);
+        const auto [codes, valid] =
+            codes_along<narrow, blanks>(slab, slice, j, prepared.rows[k], prepared.permutations[k]);
         if (prepared.opaque.none(codes)) {
             continue;
         }
         Row32::Pair& pair = row.pairs[count / 2];
         (count % 2 == 0 ? pair.codes0 : pair.codes1) = codes;
         (count % 2 == 0 ? pair.lengths0 : pair.lengths1) = slice.lengths + ray;
-        (count % 2 == 0 ? pair.wanted0 : pair.wanted1) = wanted;
+        (count % 2 == 0 ? pair.wanted0 : pair.wanted1) = wanted & valid;
         ++count;
     }
     if (count == 0) {
@@ -305,7 +306,7 @@ HWY_INLINE std::uint64_t composite_row_of_chunk(const Slab<std::uint8_t>& slab, 
     return taken;
 }
 
-template <bool between_nodes, bool one_hue>
+template <bool blanks, bool between_nodes, bool one_hue>
 std::uint64_t composite_permuting_as(const Slab<std::uint8_t>& slab, const OpacityTable& table,
                                      const Rays& rays) {
     const view::Rect pixels = pixels_of(slab);
@@ -331,23 +332,24 @@ std::uint64_t composite_permuting_as(const Slab<std::uint8_t>& slab, const Opaci
         const bool narrow = (std::min(pixels.x1, i + most) - std::max(pixels.x0, i)) * scale <= narrow_voxels;
         for (int j = pixels.y0; j < pixels.y1; ++j) {
             fetching.step<Into::second>();
-            taken += narrow ? composite_row_of_chunk<between_nodes, one_hue, true>(slab, prepared, table,
-                                                                                   rays, i, j)
-                            : composite_row_of_chunk<between_nodes, one_hue, false>(slab, prepared, table,
-                                                                                    rays, i, j);
+            taken += narrow ? composite_row_of_chunk<blanks, between_nodes, one_hue, true>(slab, prepared,
+                                                                                           table, rays, i, j)
+                            : composite_row_of_chunk<blanks, between_nodes, one_hue, false>(
+                                  slab, prepared, table, rays, i, j);
         }
     }
     return taken;
 }
 
-inline std::uint64_t composite_permuting(const Slab<std::uint8_t>& slab, const OpacityTable& table,
-                                         const Rays& rays) {
+template <bool blanks>
+std::uint64_t composite_permuting(const Slab<std::uint8_t>& slab, const OpacityTable& table,
+                                  const Rays& rays) {
     if (table.one_hue()) {
-        return slab.between_nodes ? composite_permuting_as<true, true>(slab, table, rays)
-                                  : composite_permuting_as<false, true>(slab, table, rays);
+        return slab.between_nodes ? composite_permuting_as<blanks, true, true>(slab, table, rays)
+                                  : composite_permuting_as<blanks, false, true>(slab, table, rays);
     }
-    return slab.between_nodes ? composite_permuting_as<true, false>(slab, table, rays)
-                              : composite_permuting_as<false, false>(slab, table, rays);
+    return slab.between_nodes ? composite_permuting_as<blanks, true, false>(slab, table, rays)
+                              : composite_permuting_as<blanks, false, false>(slab, table, rays);
 }
 
 }  // namespace shearwater::shear::HWY_NAMESPACE

@@ -139,15 +139,61 @@ HWY_INLINE __m512i voxels_at(const std::uint8_t* first, int needed) {
     return _mm512_loadu_si512(first);
 }
 
-// Codes in cell_steps at the pixels of one row.
-template <bool narrow>
-HWY_INLINE __m512i codes_along(const Slab<std::uint8_t>& slab, const Slice<std::uint8_t>& slice, int j,
-                               const RowPlaces& places, const Permutation& permutation) {
+// Between two rows' words, by the weight of the row behind.
+HWY_INLINE __m512i between_rows(__m512i before, __m512i behind, __m512i weight) {
+    return _mm512_add_epi16(before, _mm512_mulhrs_epi16(_mm512_sub_epi16(behind, before), weight));
+}
+
+// Of the words that interleaving puts in order, as pixels_of_words has them.
+HWY_INLINE std::uint32_t in_order(std::uint32_t of_words) {
+    return _pext_u32(of_words, 0x0f0f0f0fU) | _pext_u32(of_words, 0xf0f0f0f0U) << 16;
+}
+
+// The codes of one row of pixels, in cell_steps, and which pixels have one.
+struct RowCodes {
+    __m512i codes;
+    std::uint32_t valid;
+};
+
+// The mean of the valid corners' codes; what of all corners is valid is 255 in cell_steps where all are.
+HWY_INLINE RowCodes mean_of_valid(__m512i codes, __m512i valid) {
+    constexpr int whole = 255 * cell_steps;
+    if (HWY_LIKELY(_mm512_cmpneq_epi16_mask(valid, _mm512_set1_epi16(whole)) == 0)) {
+        return {codes, ~0U};
+    }
+    const auto mean = [](__m256i of_codes, __m256i of_valid) HWY_ATTR {
+        const __m512 sum = _mm512_cvtepi32_ps(_mm512_cvtepu16_epi32(of_codes));
+        const __m512 weight = _mm512_cvtepi32_ps(_mm512_cvtepu16_epi32(of_valid));
+        // What weighs nothing is left out below.
+        const __m512 scale = _mm512_div_ps(_mm512_set1_ps(whole), _mm512_max_ps(weight, _mm512_set1_ps(1)));
+        return _mm512_cvtusepi32_epi16(
+            _mm512_cvtps_epi32(_mm512_min_ps(_mm512_mul_ps(sum, scale), _mm512_set1_ps(whole))));
+    };
+    const __m256i low = mean(_mm512_castsi512_si256(codes), _mm512_castsi512_si256(valid));
+    const __m256i high = mean(_mm512_extracti64x4_epi64(codes, 1), _mm512_extracti64x4_epi64(valid, 1));
+    const std::uint32_t enough =
+        _mm512_cmpge_epi16_mask(valid, _mm512_set1_epi16(static_cast<short>(whole * least_valid)));
+    return {_mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1), in_order(enough)};
+}
+
+// Codes at the pixels of one row.
+template <bool narrow, bool blanks>
+HWY_INLINE RowCodes codes_along(const Slab<std::uint8_t>& slab, const Slice<std::uint8_t>& slice, int j,
+                                const RowPlaces& places, const Permutation& permutation) {
+    struct Words {
+        __m512i codes, valid;
+    };
     const auto row = static_cast<std::size_t>(j);
     const std::ptrdiff_t from = places.offsets[row] + permutation.first;
-    const auto along = [&](const std::uint8_t* plane, std::ptrdiff_t offset) HWY_ATTR {
+    const auto along = [&](const std::uint8_t* plane, std::ptrdiff_t offset) HWY_ATTR -> Words {
         const __m512i voxels = voxels_at<narrow>(plane + from + offset, permutation.needed);
-        return _mm512_maddubs_epi16(_mm512_permutexvar_epi8(permutation.voxels, voxels), permutation.weights);
+        const __m512i corners = _mm512_permutexvar_epi8(permutation.voxels, voxels);
+        const __m512i codes = _mm512_maddubs_epi16(corners, permutation.weights);
+        if constexpr (!blanks) {
+            return {codes, codes};
+        }
+        const __m512i all = _mm512_movm_epi8(_mm512_test_epi8_mask(corners, corners));
+        return {codes, _mm512_maddubs_epi16(all, permutation.weights)};
     };
     if (slab.ahead.lines > 0) {
         // It was fetched no nearer than the second cache: what the next row of pixels but one lies between.
@@ -157,14 +203,21 @@ HWY_INLINE __m512i codes_along(const Slab<std::uint8_t>& slab, const Slice<std::
             __builtin_prefetch(line + permuted_voxels - 1);
         }
     }
-    __m512i before = along(slice.voxels, 0);
-    __m512i behind = along(slice.voxels, slab.stride);
+    Words before = along(slice.voxels, 0);
+    Words behind = along(slice.voxels, slab.stride);
     if (slice.next != nullptr) {
-        before = _mm512_avg_epu16(before, along(slice.next, 0));
-        behind = _mm512_avg_epu16(behind, along(slice.next, slab.stride));
+        const auto add_half = [](Words& to, const Words& more) HWY_ATTR {
+            to = {_mm512_avg_epu16(to.codes, more.codes), _mm512_avg_epu16(to.valid, more.valid)};
+        };
+        add_half(before, along(slice.next, 0));
+        add_half(behind, along(slice.next, slab.stride));
     }
-    return _mm512_add_epi16(before, _mm512_mulhrs_epi16(_mm512_sub_epi16(behind, before),
-                                                        _mm512_set1_epi32(places.weights[row])));
+    const __m512i weight = _mm512_set1_epi32(places.weights[row]);
+    const __m512i codes = between_rows(before.codes, behind.codes, weight);
+    if constexpr (blanks) {
+        return mean_of_valid(codes, between_rows(before.valid, behind.valid, weight));
+    }
+    return {codes, ~0U};
 }
 
 }  // namespace shearwater::shear::HWY_NAMESPACE
