@@ -100,7 +100,7 @@ HWY_INLINE std::uint64_t composite_row(const Slab<Code>& slab, const Slice<Code>
             const auto valid = along(row.valid.data());
             const auto enough = hn::Ge(valid, hn::Set(d, least_valid));
             live = hn::And(live, enough);
-            code = hn::IfThenElseZero(enough, hn::Div(code, valid));
+            code = hn::IfThenElseZero(enough, mean_of_valid(d, code, valid));
         }
         const auto place = hn::Mul(code, hn::Set(d, lookup.table.nodes_per_code()));
         live = hn::And(live, hn::And(hn::Gt(place, hn::Set(d, lookup.before_opaque)),

@@ -151,6 +151,15 @@ HWY_INLINE void interpolate_row(const Slab<Code>& slab, const Slice<Code>& slice
     }
 }
 
+// Of samples' sums over valid corners that weigh so much. Where all are valid it is the sum as it is: as it
+// would be without blanks.
+template <class D>
+HWY_INLINE hn::Vec<D> mean_of_valid(D d, hn::Vec<D> sum, hn::Vec<D> valid) {
+    // One corner weighs no less than a step along each axis.
+    constexpr float nearly_all = 1 - 0.5F / (cell_steps * cell_steps);
+    return hn::IfThenElse(hn::Gt(valid, hn::Set(d, nearly_all)), sum, hn::Div(sum, valid));
+}
+
 // So many pixels lie, on every slice, within the row of voxels that there is room for.
 template <class Code>
 HWY_INLINE int pixels_of_a_chunk(const Slab<Code>& slab) {

@@ -57,9 +57,7 @@ MicroLayer::MicroLayer(const CodeVolume& codes, std::span<const Content> content
     const std::int64_t count = (fast.end - fast.first) * (slow.end - slow.first);
     if (opaque > 0) {
         const bool most = 2 * opaque >= 8 * count;
-        visit_ = most && blank == 0       ? Visit::full
-                 : most && blank == count ? Visit::with_blanks
-                                          : Visit::parts;
+        visit_ = !most ? Visit::parts : blank > 0 ? Visit::with_blanks : Visit::full;
     }
 }
 

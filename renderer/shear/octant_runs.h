@@ -25,7 +25,7 @@ struct MicroRun {
 enum class Visit {
     none,         // nothing: none has opacity
     full,         // all of them, or most, may have some, and no voxel is blank
-    with_blanks,  // so, but voxels may be blank
+    with_blanks,  // so, but voxels may be blank, which takes little more
     parts,        // it differs
 };
 
@@ -34,8 +34,16 @@ enum class Visit {
 struct OctantRun {
     MicroRun along;
     Visit visit;
-    bool operator==(const OctantRun&) const = default;
 };
+
+// Whether two rows' runs are of the same octants.
+inline bool alike(const std::vector<OctantRun>& a, const std::vector<OctantRun>& b) {
+    return std::ranges::equal(a, b, {}, &OctantRun::along, &OctantRun::along);
+}
+// What to do with two parts that are visited together.
+inline Visit together(Visit a, Visit b) {
+    return a == b ? a : Visit::with_blanks;
+}
 
 // Those of a row of octants within `octants`, in order. content_at(n) is that of the row's n-th micro-brick,
 // of which those of `micro_bricks` have some; of a micro-brick's octants the row passes two, one after the
@@ -48,13 +56,13 @@ void find_runs(const ContentAt& content_at, const MicroRun& micro_bricks, const 
     constexpr std::int64_t bridged = 4;
     out.clear();
     const unsigned both = 1U << near | 1U << far;
-    bool open = false;  // whether the last run may go on: no octant since was blank and not to be visited so
+    Visit between = Visit::full;  // what lies between the last run and the next
     for (std::int64_t f = std::max(octants.first / 2, micro_bricks.first);
          f < micro_bricks.end && 2 * f < octants.end; ++f) {
         const Content& content = content_at(f);
         const Visit visit = content.blanks ? Visit::with_blanks : Visit::full;
         if ((content.opaque_octants & both) == 0) {
-            open = open && (!content.blanks || out.back().visit == visit);
+            between = together(between, visit);
             continue;
         }
         const MicroRun seen{
@@ -63,12 +71,13 @@ void find_runs(const ContentAt& content_at, const MicroRun& micro_bricks, const 
         if (seen.first >= seen.end) {
             continue;
         }
-        if (open && out.back().visit == visit && seen.first - out.back().along.end <= bridged) {
+        if (!out.empty() && seen.first - out.back().along.end <= bridged) {
             out.back().along.end = seen.end;
+            out.back().visit = together(out.back().visit, together(between, visit));
         } else {
             out.push_back({seen, visit});
         }
-        open = true;
+        between = Visit::full;
     }
 }
 

@@ -54,7 +54,7 @@ HWY_INLINE void find_nodes(const Slab<Code>& slab, const Slice<Code>& slice, int
         if constexpr (blanks) {
             const auto valid = along(row.valid.data());
             const auto enough = hn::Ge(valid, hn::Set(d, least_valid));
-            const auto node = node_of(hn::IfThenElseZero(enough, hn::Div(code, valid)));
+            const auto node = node_of(hn::IfThenElseZero(enough, mean_of_valid(d, code, valid)));
             hn::StoreU(hn::IfThenElse(hn::RebindMask(di, enough), node, hn::Set(di, blank_node)), di,
                        nodes + n);
         } else {

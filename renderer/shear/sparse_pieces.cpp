@@ -29,9 +29,12 @@ class SparsePieces<Code>::Adding {
 
     std::size_t begin() const { return begin_; }
     void add(std::int64_t row, std::vector<OctantRun>& runs) {
-        if (!runs.empty() && runs == last_runs_ && row - found_.pieces[last_].piece.slow.first < most_rows) {
-            for (Copied& copied : std::span(found_.pieces).subspan(last_)) {
-                ++copied.piece.slow.end;
+        if (!runs.empty() && alike(runs, last_runs_) &&
+            row - found_.pieces[last_].piece.slow.first < most_rows) {
+            for (std::size_t n = 0; n < runs.size(); ++n) {
+                Piece& piece = found_.pieces[last_ + n].piece;
+                ++piece.slow.end;
+                piece.visit = together(piece.visit, runs[n].visit);
             }
             return;
         }

@@ -158,10 +158,12 @@ void Tile<Code>::render_octants(Slices slices, std::span<const std::int64_t> num
     std::size_t first = 0;  // of the pieces of the last rows
     for (const std::int64_t row : octant_rows_) {
         layer.runs(fast, row, half, next_runs_);
-        if (!next_runs_.empty() && next_runs_ == runs_ &&
+        if (!next_runs_.empty() && alike(next_runs_, runs_) &&
             (row == octant_pieces_.back().slow.end || row == octant_pieces_.back().slow.first - 1)) {
-            for (Piece& piece : std::span(octant_pieces_).subspan(first)) {
+            for (std::size_t n = 0; n < next_runs_.size(); ++n) {
+                Piece& piece = octant_pieces_[first + n];
                 piece.slow = {std::min(piece.slow.first, row), std::max(piece.slow.end, row + 1)};
+                piece.visit = together(piece.visit, next_runs_[n].visit);
             }
             continue;
         }
