@@ -148,7 +148,7 @@ std::uint64_t composite_chunk(const Slab<Code>& slab, const view::Rect& chunk, c
     std::array<float, widest_tile + ray_padding> a_before;
     std::uint64_t taken = 0;
     for (int j = chunk.y0; j < chunk.y1; ++j) {
-        fetching.step();
+        fetching.step<Into::second>();
         std::copy_n(rays.a + j * rays.stride, a_before.size(), a_before.begin());
         for (std::size_t k = 0; k < static_cast<std::size_t>(slab.count); ++k) {
             const Slice<Code>& slice = slab.slices[k];

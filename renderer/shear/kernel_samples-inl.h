@@ -143,6 +143,15 @@ HWY_INLINE void interpolate_row(const Slab<Code>& slab, const Slice<Code>& slice
     const auto fraction = static_cast<float>(place.step) / cell_steps;
     const float weight = slice.next == nullptr ? 1 : 0.5F;
     const std::ptrdiff_t from = place.cell * slab.stride + columns.first_voxel;
+    if (slab.ahead.lines > 0) {
+        // It was fetched no nearer than the second cache: the last of what the next row of pixels but one
+        // lies between.
+        const CellPlace next = row_place(slab, slice, std::min(j + 2, slice.pixels.y1 - 1));
+        const Code* const row_behind = slice.voxels + (next.cell + 1) * slab.stride + columns.first_voxel;
+        for (int n = 0; n < columns.voxels; n += cache_line / static_cast<int>(sizeof(Code))) {
+            __builtin_prefetch(row_behind + n);
+        }
+    }
     interpolate_across<blanks>(slice.voxels + from, slab.stride, fraction, weight, columns.voxels, false,
                                row);
     if (slice.next != nullptr) {

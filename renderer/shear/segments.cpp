@@ -172,7 +172,7 @@ std::uint64_t composite_segments_of_chunk(const SegmentSlab<Code>& slab, const v
     SegmentRow row;
     std::uint64_t taken = 0;
     for (int j = chunk.y0; j < chunk.y1; ++j) {
-        fetching.step();
+        fetching.step<Into::second>();
         const float* const a = rays.a + j * rays.stride;
         if (std::all_of(a + chunk.x0, a + chunk.x1, [&](float alpha) { return alpha >= rays.done; })) {
             continue;
