@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "deploy/samples/sample.h"
 #include "tests/support/command.h"
@@ -189,6 +190,20 @@ TEST(Bench, LoadMakesItsFileAndRemovesIt) {
     EXPECT_NE(std::ranges::find(stages, "stop: sketch"), stages.end());
 }
 
+TEST(Bench, KernelsByEveryKindOfVectors) {
+    std::map<std::string, std::set<std::string>> of_simd;
+    for (const Line& line : rows("kernels", "--seconds 0")) {
+        expect_times(line, 1e-3, "ms");
+        EXPECT_GT(number(line, "samples"), 0);
+        of_simd[text(line, "simd")].insert(std::to_string(number(line, "bits")) + text(line, "blanks") +
+                                           text(line, "hues"));
+    }
+    EXPECT_FALSE(of_simd.empty());
+    for (const auto& [simd, kinds] : of_simd) {
+        EXPECT_EQ(kinds.size(), 8U) << simd;
+    }
+}
+
 TEST(Bench, Codecs) {
     const auto lines = rows("codecs", "--size 16 --image 32x32 --seconds 0 --threads 1");
     std::map<std::string, std::vector<std::string>> of_workload;
@@ -363,6 +378,7 @@ TEST(Bench, MistakesGetOneLine) {
     expect_mistake("bench load --folder /nowhere", "nowhere");
     expect_mistake("bench load --bits 9", "bits");
     expect_mistake("bench codecs --seconds -1", "seconds");
+    expect_mistake("bench kernels --seconds -1", "seconds");
     expect_mistake("bench culling --block 8", "block");
     expect_mistake("bench culling --tables views,pears", "pears");
     expect_mistake("bench culling --check 0", "check");
@@ -375,7 +391,7 @@ TEST(Bench, MistakesGetOneLine) {
 
 TEST(Bench, HelpEndsWithZero) {
     for (const std::string benchmark :
-         {"", "frame", "trees", "images", "stages", "load", "codecs", "large", "culling"}) {
+         {"", "kernels", "frame", "trees", "images", "stages", "load", "codecs", "large", "culling"}) {
         const Outcome outcome = run("bench " + benchmark + " --help");
         EXPECT_EQ(outcome.status, 0);
         EXPECT_NE(outcome.out.find("--help"), std::string::npos);
