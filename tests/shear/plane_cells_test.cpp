@@ -19,11 +19,11 @@ namespace {
 
 // Random codes, most of them low.
 template <class Code>
-struct Piece {
+struct RandomPiece {
     std::int64_t across, down, count;
     std::vector<Code> codes;
 
-    Piece(std::int64_t across_, std::int64_t down_, std::int64_t count_, std::mt19937& random)
+    RandomPiece(std::int64_t across_, std::int64_t down_, std::int64_t count_, std::mt19937& random)
         : across(across_),
           down(down_),
           count(count_),
@@ -56,7 +56,7 @@ struct Piece {
     }
 };
 
-struct Box {
+struct CellBox {
     std::int64_t fast_first = 1000, fast_end = 0, slow_first = 1000, slow_end = 0;
 
     void add(std::int64_t u, std::int64_t v) {
@@ -65,14 +65,14 @@ struct Box {
         slow_first = std::min(slow_first, v);
         slow_end = std::max(slow_end, v + 1);
     }
-    Box with(const Box& other) const {
+    CellBox with(const CellBox& other) const {
         return {std::max(fast_first, other.fast_first), std::min(fast_end, other.fast_end),
                 std::max(slow_first, other.slow_first), std::min(slow_end, other.slow_end)};
     }
 };
 
 template <class Code>
-void expect_all_that_may_be_seen(const Piece<Code>& piece, const view::TransferFunction& tf) {
+void expect_all_that_may_be_seen(const RandomPiece<Code>& piece, const view::TransferFunction& tf) {
     const OpacityTable table(tf, std::numeric_limits<Code>::max());
     const auto [first, last] = table.opaque_codes();
     std::vector<PlaneCells> found(static_cast<std::size_t>(2 * piece.count));
@@ -80,7 +80,7 @@ void expect_all_that_may_be_seen(const Piece<Code>& piece, const view::TransferF
                             found);
     for (std::int64_t at = 0; at < 2 * piece.count - 1; ++at) {
         const PlaneCells& cells = found[static_cast<std::size_t>(at)];
-        Box high, low;
+        CellBox high, low;
         for (std::int64_t v = 0; v < piece.cells_down(); ++v) {
             for (std::int64_t u = 0; u < piece.cells_across(); ++u) {
                 const auto [least, most] = piece.about(u, v, at / 2, (at + 1) / 2);
@@ -96,7 +96,7 @@ void expect_all_that_may_be_seen(const Piece<Code>& piece, const view::TransferF
                     << piece.across << " x " << piece.down << ", " << at << ": " << u << ", " << v;
             }
         }
-        const Box box = high.with(low);
+        const CellBox box = high.with(low);
         ASSERT_EQ(cells.empty(), box.fast_first >= box.fast_end || box.slow_first >= box.slow_end);
         if (!cells.empty()) {
             ASSERT_EQ(cells.fast_first, box.fast_first);
@@ -107,14 +107,14 @@ void expect_all_that_may_be_seen(const Piece<Code>& piece, const view::TransferF
     }
 }
 
-view::TransferFunction of(view::OpacityPin pin) {
+view::TransferFunction one_pin(view::OpacityPin pin) {
     return {.opacity_pins = {pin}, .colour_pins = {{0, {1, 1, 1}}}, .background = {}};
 }
 
 TEST(PlaneCells, AreThoseThatMayBeSeen) {
     const std::array<view::TransferFunction, 5> functions{
-        of(view::Ramp{0.7, 0, 1, 0.5}), of(view::Hat{0.5, 0.1, 0.1, 0.5}), of(view::Ramp{0, 0.5, 0.05, 0}),
-        of(view::Flat{0.1}), of(view::Flat{0})};
+        one_pin(view::Ramp{0.7, 0, 1, 0.5}), one_pin(view::Hat{0.5, 0.1, 0.1, 0.5}),
+        one_pin(view::Ramp{0, 0.5, 0.05, 0}), one_pin(view::Flat{0.1}), one_pin(view::Flat{0})};
     std::mt19937 random(3);
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
         hwy::SetSupportedTargetsForTest(target);
@@ -122,8 +122,10 @@ TEST(PlaneCells, AreThoseThatMayBeSeen) {
             for (const std::int64_t down : {1, 5, 9, 129}) {
                 for (const std::int64_t count : {1, 5}) {
                     for (const view::TransferFunction& tf : functions) {
-                        expect_all_that_may_be_seen(Piece<std::uint8_t>(across, down, count, random), tf);
-                        expect_all_that_may_be_seen(Piece<std::uint16_t>(across, down, count, random), tf);
+                        expect_all_that_may_be_seen(RandomPiece<std::uint8_t>(across, down, count, random),
+                                                    tf);
+                        expect_all_that_may_be_seen(RandomPiece<std::uint16_t>(across, down, count, random),
+                                                    tf);
                     }
                 }
             }
