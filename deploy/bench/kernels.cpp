@@ -68,8 +68,9 @@ class Trial {
         }
     }
 
-    // Of samples a second, one thread.
-    Spread time(const shear::OpacityTable& table, double seconds) {
+    // Of all samples, one thread; steep: where a table's extinction is to be interpolated between its nodes.
+    Spread time(const shear::OpacityTable& table, bool steep, double seconds) {
+        slab_.between_nodes = steep;
         std::ranges::fill(lengths_, table.depth_unit());
         std::ranges::fill(gathered_, 0.0F);
         float* const r = gathered_.data();
@@ -104,15 +105,21 @@ class Kernels {
     template <class Code>
     void time(const std::string& simd, const char* blanks, int blank_of) {
         Trial<Code> trial(blank_of);
-        for (const bool one_hue : {true, false}) {
+        struct Tables {
+            const char* name;
+            bool one_hue, steep;
+        };
+        for (const auto& [name, one_hue, steep] :
+             {Tables{"one hue", true, false}, Tables{"many", false, false},
+              Tables{"many, steep", false, true}}) {
             const shear::OpacityTable table(faint(one_hue), std::numeric_limits<Code>::max());
-            const Spread times = trial.time(table, flags_.seconds);
+            const Spread times = trial.time(table, steep, flags_.seconds);
             Record record;
             const auto samples = static_cast<double>(trial.samples());
             record.text("simd", simd, 8)
                 .count("bits", 8 * sizeof(Code))
                 .text("blanks", blanks, 9)
-                .text("hues", one_hue ? "one" : "many", 5)
+                .text("hues", name, 11)
                 .count("samples", trial.samples())
                 .number("median_ms", times.median * 1e3, 3)
                 .number("min_ms", times.least * 1e3, 3)

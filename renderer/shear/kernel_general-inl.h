@@ -59,27 +59,43 @@ HWY_INLINE Nodes<D> load_nodes(D d, const float* nodes, hn::Vec<hn::RebindToSign
 }
 #endif
 
+// The nearest nodes, and where it is to be interpolated the extinction between those on either side.
+template <bool between_nodes, class D>
+HWY_INLINE Nodes<D> nodes_at(D d, const float* nodes, hn::Vec<D> place) {
+    const hn::RebindToSigned<D> di;
+    if constexpr (!between_nodes) {
+        const auto nearest = hn::ConvertTo(di, hn::Add(place, hn::Set(d, 0.5F)));
+        return load_nodes(d, nodes, hn::ShiftLeft<2>(nearest));
+    }
+    const auto below = hn::ConvertTo(di, place);
+    const auto beyond = hn::Sub(place, hn::ConvertTo(d, below));
+    const auto index = hn::ShiftLeft<2>(below);
+    const Nodes<D> left = load_nodes(d, nodes, index), right = load_nodes(d, nodes + 4, index);
+    const auto is_left = hn::Lt(beyond, hn::Set(d, 0.5F));
+    return {hn::IfThenElse(is_left, left.r, right.r), hn::IfThenElse(is_left, left.g, right.g),
+            hn::IfThenElse(is_left, left.b, right.b),
+            hn::MulAdd(beyond, hn::Sub(right.extinction, left.extinction), left.extinction)};
+}
+
 // What a row needs of the table for all its vectors.
 struct Lookup {
     const OpacityTable& table;
-    bool between_nodes, faint;
+    bool faint;
     float before_opaque, behind_opaque;  // nodes: what is not between them has no opacity
 
-    Lookup(const OpacityTable& of, bool between, bool few)
+    Lookup(const OpacityTable& of, bool few)
         : table(of),
-          between_nodes(between),
           faint(few),
           before_opaque(static_cast<float>(of.first_opaque() - 1)),
           behind_opaque(static_cast<float>(of.last_opaque() + 1)) {}
 };
 
 // One row of the pixels [i0, i1) of one slice. a_before: of the row's rays, from i0 on, before the slab.
-template <bool blanks, bool one_hue, class Code>
+template <bool blanks, bool between_nodes, bool one_hue, class Code>
 HWY_INLINE std::uint64_t composite_row(const Slab<Code>& slab, const Slice<Code>& slice, int i0, int i1,
                                        int j, const Columns& columns, const Lookup& lookup,
                                        const float* a_before, const Rays& rays) {
     const hn::ScalableTag<float> d;
-    const hn::RebindToSigned<decltype(d)> di;
     const float* const nodes = &lookup.table.nodes()->r;
     Row row;
     interpolate_row<blanks>(slab, slice, j, columns, row);
@@ -108,15 +124,7 @@ HWY_INLINE std::uint64_t composite_row(const Slab<Code>& slab, const Slice<Code>
         if (hn::AllFalse(d, live)) {
             continue;
         }
-        const auto nearest = hn::ConvertTo(di, hn::Add(place, hn::Set(d, 0.5F)));
-        auto node = load_nodes(d, nodes, hn::ShiftLeft<2>(nearest));
-        if (lookup.between_nodes) {
-            const auto below = hn::ConvertTo(di, place);
-            const auto beyond = hn::Sub(place, hn::ConvertTo(d, below));
-            const auto left = hn::GatherIndex(d, nodes + 3, hn::ShiftLeft<2>(below));
-            const auto right = hn::GatherIndex(d, nodes + 7, hn::ShiftLeft<2>(below));
-            node.extinction = hn::MulAdd(beyond, hn::Sub(right, left), left);
-        }
+        const auto node = nodes_at<between_nodes>(d, nodes, place);
         const std::ptrdiff_t ray = j * rays.stride + i0 + n;
         const auto depth =
             hn::Mul(node.extinction, hn::IfThenElseZero(live, hn::LoadU(d, slice.lengths + ray)));
@@ -129,7 +137,7 @@ HWY_INLINE std::uint64_t composite_row(const Slab<Code>& slab, const Slice<Code>
 }
 
 // The pixels of a chunk, from i0 to i1 at most.
-template <bool blanks, bool one_hue, class Code>
+template <bool blanks, bool between_nodes, bool one_hue, class Code>
 std::uint64_t composite_chunk(const Slab<Code>& slab, const view::Rect& chunk, const OpacityTable& table,
                               const Rays& rays, Fetching& fetching) {
     struct Span {
@@ -144,7 +152,7 @@ std::uint64_t composite_chunk(const Slab<Code>& slab, const view::Rect& chunk, c
             lay_columns(slab, slab.slices[k], spans[k].i0, spans[k].i1, columns[k]);
         }
     }
-    const Lookup lookup(table, slab.between_nodes, slab.faint);
+    const Lookup lookup(table, slab.faint);
     std::array<float, widest_tile + ray_padding> a_before;
     std::uint64_t taken = 0;
     for (int j = chunk.y0; j < chunk.y1; ++j) {
@@ -154,26 +162,35 @@ std::uint64_t composite_chunk(const Slab<Code>& slab, const view::Rect& chunk, c
             const Slice<Code>& slice = slab.slices[k];
             const auto [i0, i1] = spans[k];
             if (i0 < i1 && slice.pixels.y0 <= j && j < slice.pixels.y1) {
-                taken += composite_row<blanks, one_hue>(slab, slice, i0, i1, j, columns[k], lookup,
-                                                        a_before.data() + i0, rays);
+                taken += composite_row<blanks, between_nodes, one_hue>(slab, slice, i0, i1, j, columns[k],
+                                                                       lookup, a_before.data() + i0, rays);
             }
         }
     }
     return taken;
 }
 
-template <bool blanks, class Code>
-std::uint64_t composite_in_general(const Slab<Code>& slab, const OpacityTable& table, const Rays& rays) {
+template <bool blanks, bool between_nodes, bool one_hue, class Code>
+std::uint64_t composite_chunks(const Slab<Code>& slab, const OpacityTable& table, const Rays& rays) {
     const int most = pixels_of_a_chunk(slab);
     const view::Rect pixels = pixels_of(slab);
     Fetching fetching(slab.ahead, (pixels.width() + most - 1) / most * pixels.height());
     std::uint64_t taken = 0;
     for (int i = pixels.x0; i < pixels.x1; i += most) {
-        const view::Rect chunk{i, pixels.y0, std::min(i + most, pixels.x1), pixels.y1};
-        taken += table.one_hue() ? composite_chunk<blanks, true>(slab, chunk, table, rays, fetching)
-                                 : composite_chunk<blanks, false>(slab, chunk, table, rays, fetching);
+        taken += composite_chunk<blanks, between_nodes, one_hue>(
+            slab, {i, pixels.y0, std::min(i + most, pixels.x1), pixels.y1}, table, rays, fetching);
     }
     return taken;
+}
+
+template <bool blanks, class Code>
+std::uint64_t composite_in_general(const Slab<Code>& slab, const OpacityTable& table, const Rays& rays) {
+    if (table.one_hue()) {
+        return slab.between_nodes ? composite_chunks<blanks, true, true>(slab, table, rays)
+                                  : composite_chunks<blanks, false, true>(slab, table, rays);
+    }
+    return slab.between_nodes ? composite_chunks<blanks, true, false>(slab, table, rays)
+                              : composite_chunks<blanks, false, false>(slab, table, rays);
 }
 
 }  // namespace shearwater::shear::HWY_NAMESPACE

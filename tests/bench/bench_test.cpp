@@ -200,7 +200,7 @@ TEST(Bench, KernelsByEveryKindOfVectors) {
     }
     EXPECT_FALSE(of_simd.empty());
     for (const auto& [simd, kinds] : of_simd) {
-        EXPECT_EQ(kinds.size(), 8U) << simd;
+        EXPECT_EQ(kinds.size(), 12U) << simd;
     }
 }
 
