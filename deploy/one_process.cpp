@@ -97,7 +97,7 @@ class Loaded {
         if (!read) {
             return read.error();
         }
-        if (const auto kept = copies_ == 2 ? read->keep_turned(workers_) : base::Status(); !kept) {
+        if (const auto kept = read->keep_copies(copies_, workers_); !kept) {
             return kept;
         }
         volume_.emplace(*std::move(read));

@@ -86,7 +86,7 @@ base::Result<InProcess> InProcess::load(const options::CubeOptions& options, int
     if (!bricks) {
         return bricks.error();
     }
-    if (const auto kept = options.copies == 2 ? bricks->keep_turned(*workers) : base::Status(); !kept) {
+    if (const auto kept = bricks->keep_copies(options.copies, *workers); !kept) {
         return kept.error();
     }
     return InProcess(lattice, std::move(workers), *std::move(bricks));

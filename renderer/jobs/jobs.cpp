@@ -178,11 +178,9 @@ void Jobs::load(const leaf::Load& job, const std::stop_token& stop) {
         tell_(leaf::Loaded{job.job, bricks.error()});
         return;
     }
-    if (job.share.copies == 2) {
-        if (const auto kept = bricks->keep_turned(loaders_, stop); !kept) {
-            tell_(leaf::Loaded{job.job, kept.error()});
-            return;
-        }
+    if (const auto kept = bricks->keep_copies(job.share.copies, loaders_, stop); !kept) {
+        tell_(leaf::Loaded{job.job, kept.error()});
+        return;
     }
     if (dynamic_cast<const LinkSource*>(source->get()) != nullptr) {
         origin.reset();

@@ -76,7 +76,11 @@ base::Result<BrickVolume> BrickVolume::load(volume::VoxelSource& source, const B
     }
 }
 
-base::Status BrickVolume::keep_turned(base::Workers& workers, const std::stop_token& stop) {
+base::Status BrickVolume::keep_copies(int copies, base::Workers& workers, const std::stop_token& stop) {
+    base::check(copies == 1 || copies == 2, "a volume has one copy of its codes, or two");
+    if (copies == 1) {
+        return {};
+    }
     try {
         for (CodeVolume& level : levels_) {
             if (!level.keep_turned(workers, stop)) {

@@ -32,9 +32,9 @@ class BrickVolume {
     static BrickVolume of_level(int level, CodeVolume nodes, const volume::Box& box, const volume::Index3& n,
                                 const volume::Mapping& mapping, base::Workers& workers);
 
-    // Keeps a second copy of its codes at every level, so that faces across axis 0 are drawn as fast as
+    // Keeps one copy of its codes at every level, or two, so that faces across axis 0 are drawn as fast as
     // others (CodeVolume); cancelled, or too_large where there is no memory for as much again.
-    base::Status keep_turned(base::Workers& workers, const std::stop_token& stop = {});
+    base::Status keep_copies(int copies, base::Workers& workers, const std::stop_token& stop = {});
 
     const volume::Box& box() const { return box_; }
     const volume::Index3& cube() const { return n_; }  // voxels of the whole cube

@@ -39,7 +39,7 @@ TEST(Copies, HoldTheSameCodesOnEveryLevel) {
             for (int level = 0; level < volume.levels(); ++level) {
                 EXPECT_EQ(volume.level(level).best_for(0).adjacent_axis(), 0) << "there is no other";
             }
-            ASSERT_TRUE(volume.keep_turned(workers));
+            ASSERT_TRUE(volume.keep_copies(2, workers));
             EXPECT_GT(volume.bytes(), one + static_cast<std::size_t>(box.voxels() * bits / 8));
             for (int level = 0; level < volume.levels(); ++level) {
                 const auto& codes = volume.level(level);
@@ -59,7 +59,7 @@ TEST(Copies, AreNotMadeOnceStopped) {
     BrickVolume volume = bricks_of(cube, volume::whole(cube.n()), workers, {});
     std::stop_source stop;
     stop.request_stop();
-    const auto kept = volume.keep_turned(workers, stop.get_token());
+    const auto kept = volume.keep_copies(2, workers, stop.get_token());
     ASSERT_FALSE(kept);
     EXPECT_EQ(kept.error().code, base::Code::cancelled);
 }
@@ -76,7 +76,7 @@ void expect_as_of_one_copy(FloatCube& cube, const CopiesDrawn& taking) {
     const volume::Mapping mapping{.bits = taking.bits};
     const BrickVolume one = bricks_of(cube, volume::whole(cube.n()), workers, mapping);
     BrickVolume two = bricks_of(cube, volume::whole(cube.n()), workers, mapping);
-    ASSERT_TRUE(two.keep_turned(workers));
+    ASSERT_TRUE(two.keep_copies(2, workers));
     int across_first = 0;
     for (const NamedView& view : all_views(lattice, 3)) {
         const auto factorisation = view::factorise(view.camera, taking.size, lattice, taking.sampling);
