@@ -5,12 +5,33 @@
 #include <utility>
 
 #include "renderer/shear/fetching.h"
-#include "renderer/shear/pixels_within.h"
 
 namespace shearwater::shear {
 
 using view::PixelRange;
 using view::Rect;
+
+namespace {
+
+// Of a range of pixels those whose samples lie in a run of voxels. Neighbours' ranges meet.
+PixelRange pixels_within(const PixelRange& range, double offset, double scale, const OpenRun& voxels) {
+    const double pixels = 1 / scale;  // a voxel
+    const auto boundary = [&](double voxel) {
+        // Up to the next: what is not below 0 is cut off by conversion.
+        const double at = std::clamp((voxel - offset) * pixels, static_cast<double>(range.first),
+                                     static_cast<double>(range.last));
+        const int below = static_cast<int>(at);
+        return below + (static_cast<double>(below) < at ? 1 : 0);
+    };
+    if (scale > 0) {
+        return {voxels.open_lo ? range.first : boundary(voxels.lo),
+                voxels.open_hi ? range.last : boundary(voxels.hi)};
+    }
+    return {voxels.open_hi ? range.first : boundary(voxels.hi),
+            voxels.open_lo ? range.last : boundary(voxels.lo)};
+}
+
+}  // namespace
 
 template <class Code>
 Tile<Code>::Tile(const BrickVolume& volume, const Classification& classification,
@@ -190,30 +211,37 @@ template <class Code>
 typename Tile<Code>::Part Tile<Code>::part_of(Slices slices, std::span<const std::int64_t> numbers,
                                               const Piece& piece, const MicroRun& fast,
                                               const MicroRun& slow) const {
-    const auto within = [&](int axis, const PixelRange& pixels, double offset, double scale,
-                            const MicroRun& octants, const MicroRun& all) {
+    const auto voxels = [&](int axis, const MicroRun& octants, const MicroRun& all) {
         const std::int64_t first = codes_.micro_bricks().first(axis) * CodeVolume::micro_edge;
-        return pixels_within(pixels, offset, scale,
-                             static_cast<double>(first + octants.first * CodeVolume::octant_edge),
-                             static_cast<double>(first + octants.end * CodeVolume::octant_edge),
-                             octants.first == all.first, octants.end == all.end);
+        return OpenRun{.lo = static_cast<double>(first + octants.first * CodeVolume::octant_edge),
+                       .hi = static_cast<double>(first + octants.end * CodeVolume::octant_edge),
+                       .open_lo = octants.first == all.first,
+                       .open_hi = octants.end == all.end};
     };
+    const OpenRun fast_voxels = voxels(plan_.fast_axis(), piece.fast, fast);
+    const OpenRun slow_voxels = voxels(plan_.slow_axis(), piece.slow, slow);
     Part part;
     for (std::size_t n = 0; n < slices.size(); ++n) {
-        const Slice<Code>& slice = slices[n];
-        const PixelRange columns =
-            within(plan_.fast_axis(), {slice.pixels.x0, slice.pixels.x1},
-                   slice.fast_offset + slice.fast_scale * rect_.x0, slice.fast_scale, piece.fast, fast);
-        const PixelRange rows =
-            within(plan_.slow_axis(), {slice.pixels.y0, slice.pixels.y1},
-                   slice.slow_offset + slice.slow_scale * rect_.y0, slice.slow_scale, piece.slow, slow);
-        if (!columns.empty() && !rows.empty()) {
-            part.slices[part.count] = slice;
-            part.slices[part.count].pixels = {columns.first, rows.first, columns.last, rows.last};
-            part.numbers[part.count++] = numbers[n];
-        }
+        add_within(fast_voxels, slow_voxels, slices[n], numbers[n], part);
     }
     return part;
+}
+
+// What of a slice lies in some voxels.
+template <class Code>
+void Tile<Code>::add_within(const OpenRun& fast, const OpenRun& slow, const Slice<Code>& slice,
+                            std::int64_t number, Part& part) const {
+    const PixelRange columns =
+        pixels_within({slice.pixels.x0, slice.pixels.x1}, slice.fast_offset + slice.fast_scale * rect_.x0,
+                      slice.fast_scale, fast);
+    const PixelRange rows =
+        pixels_within({slice.pixels.y0, slice.pixels.y1}, slice.slow_offset + slice.slow_scale * rect_.y0,
+                      slice.slow_scale, slow);
+    if (!columns.empty() && !rows.empty()) {
+        part.slices[part.count] = slice;
+        part.slices[part.count].pixels = {columns.first, rows.first, columns.last, rows.last};
+        part.numbers[part.count++] = number;
+    }
 }
 
 // Parts of slices to be visited alike. Where it is the whole of them, so will the next slices be.

@@ -22,6 +22,12 @@ namespace shearwater::shear {
 // Which bricks some ray has met, as BrickVolume::bricks() counts them.
 using BricksMet = std::vector<std::atomic<std::uint8_t>>;
 
+// Voxels [lo, hi) along an axis, and what is on the sub-volume's side of an end of it where that is open.
+struct OpenRun {
+    double lo, hi;
+    bool open_lo, open_hi;
+};
+
 template <class Code>
 class Tile {
   public:
@@ -85,6 +91,8 @@ class Tile {
                  const MicroRun& fast, const MicroRun& slow) const;
     Part part_of(Slices slices, std::span<const std::int64_t> numbers,
                  const typename SparsePieces<Code>::Copied& copied, const VoxelRegion& nodes) const;
+    void add_within(const OpenRun& fast, const OpenRun& slow, const Slice<Code>& slice, std::int64_t number,
+                    Part& part) const;
     void render_sparse(Slices slices, std::span<const std::int64_t> numbers);
     bool is_seen(const Piece& piece, std::int64_t half_layer) const;
     void find_seen(std::int64_t half_layer, const std::array<MicroRun, 2>& octants);

@@ -3,12 +3,9 @@
 #include <algorithm>
 
 #include "renderer/shear/fetching.h"
-#include "renderer/shear/pixels_within.h"
 #include "renderer/shear/tile.h"
 
 namespace shearwater::shear {
-
-using view::PixelRange;
 
 // Slices that lie in one half layer of micro-bricks, each with some pixels.
 template <class Code>
@@ -43,33 +40,22 @@ typename Tile<Code>::Part Tile<Code>::part_of(Slices slices, std::span<const std
                                               const VoxelRegion& nodes) const {
     const auto& [all_fast, all_slow] = pieces_->octants();
     const Piece& piece = copied.piece;
-    // Beyond the sub-volume's ends there are no samples.
-    const auto within = [&](const PixelRange& pixels, double offset, double scale, std::size_t n,
-                            const MicroRun& octants, const MicroRun& all, std::int64_t first,
+    const auto voxels = [&](std::size_t n, const MicroRun& octants, const MicroRun& all, std::int64_t first,
                             std::int64_t end) {
         const std::int64_t lo = nodes.lo[n];
-        return pixels_within(pixels, offset, scale, static_cast<double>(lo + first),
-                             static_cast<double>(lo + end), octants.first == all.first && first == 0,
-                             octants.end == all.end && lo + end >= nodes.hi[n]);
+        return OpenRun{.lo = static_cast<double>(lo + first),
+                       .hi = static_cast<double>(lo + end),
+                       .open_lo = octants.first == all.first && first == 0,
+                       .open_hi = octants.end == all.end && lo + end >= nodes.hi[n]};
     };
     Part part;
     for (std::size_t n = 0; n < slices.size(); ++n) {
-        const Slice<Code>& slice = slices[n];
         const double plane = 2 * (plan_.node_place(numbers[n]) - static_cast<double>(nodes.lo[2]));
         const PlaneCells& cells = copied.opaque[static_cast<std::size_t>(plane)];
-        if (cells.empty()) {
-            continue;
-        }
-        const PixelRange columns =
-            within({slice.pixels.x0, slice.pixels.x1}, slice.fast_offset + slice.fast_scale * rect_.x0,
-                   slice.fast_scale, 0, piece.fast, all_fast, cells.fast_first, cells.fast_end);
-        const PixelRange rows =
-            within({slice.pixels.y0, slice.pixels.y1}, slice.slow_offset + slice.slow_scale * rect_.y0,
-                   slice.slow_scale, 1, piece.slow, all_slow, cells.slow_first, cells.slow_end);
-        if (!columns.empty() && !rows.empty()) {
-            part.slices[part.count] = slice;
-            part.slices[part.count].pixels = {columns.first, rows.first, columns.last, rows.last};
-            part.numbers[part.count++] = numbers[n];
+        if (!cells.empty()) {
+            add_within(voxels(0, piece.fast, all_fast, cells.fast_first, cells.fast_end),
+                       voxels(1, piece.slow, all_slow, cells.slow_first, cells.slow_end), slices[n],
+                       numbers[n], part);
         }
     }
     return part;
