@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 namespace shearwater::culling {
 
@@ -88,39 +87,37 @@ void Beams::lay_slabs() {
     }
 }
 
-// Of four neighbours at a time: most have the same, and the others' functions differ little.
-BeamCells Beams::cells(const DirectionGrid& directions, base::Workers& workers) const {
-    constexpr std::size_t side = 2;
-    struct Row {
-        std::vector<int> cells;
-        std::vector<std::size_t> first_of;
-    };
-    std::vector<Row> rows(v_.size());
-    const auto groups = static_cast<std::int64_t>((v_.size() + side - 1) / side);
-    workers.for_each(groups, [&](std::int64_t group) {
-        const std::size_t j0 = static_cast<std::size_t>(group) * side, j1 = std::min(j0 + side, v_.size());
-        std::vector<int> all;
-        for (std::size_t i0 = 0; i0 < u_.size(); i0 += side) {
-            const std::size_t i1 = std::min(i0 + side, u_.size());
+std::vector<Tile> Beams::tiles() const {
+    constexpr std::size_t side = 4 * TileCells::group;
+    std::vector<Tile> tiles;
+    for (std::size_t v0 = 0; v0 < v_.size(); v0 += side) {
+        const std::size_t v1 = std::min(v0 + side, v_.size());
+        const std::size_t row = tiles.size();
+        for (std::size_t u0 = 0; u0 < u_.size(); u0 += side) {
+            tiles.push_back({u0, std::min(u0 + side, u_.size()), v0, v1});
+        }
+        if (v0 / side % 2 == 1) {
+            std::reverse(tiles.begin() + static_cast<std::ptrdiff_t>(row), tiles.end());
+        }
+    }
+    return tiles;
+}
+
+// Of the beams of a group at a time: most have the same, and the others' functions differ little.
+TileCells Beams::cells(const Tile& tile, const DirectionGrid& directions) const {
+    constexpr std::size_t group = TileCells::group;
+    TileCells cells;
+    std::vector<int> all;
+    for (std::size_t v = tile.v0; v < tile.v1; v += group) {
+        const Interval v_slopes = hull(v_[v].slope, v_[std::min(v + group, tile.v1) - 1].slope);
+        for (std::size_t u = tile.u0; u < tile.u1; u += group) {
             if (all.empty() || perspective()) {
-                directions.cells_of(
-                    face_.axis, {hull(u_[i0].slope, u_[i1 - 1].slope), hull(v_[j0].slope, v_[j1 - 1].slope)},
-                    all);
+                const Interval u_slopes = hull(u_[u].slope, u_[std::min(u + group, tile.u1) - 1].slope);
+                directions.cells_of(face_.axis, {u_slopes, v_slopes}, all);
             }
-            for (Row& row : std::span(rows).subspan(j0, j1 - j0)) {
-                for (std::size_t i = i0; i < i1; ++i) {
-                    row.first_of.push_back(row.cells.size());
-                    row.cells.insert(row.cells.end(), all.begin(), all.end());
-                }
-            }
+            cells.first_of.push_back(cells.cells.size());
+            cells.cells.insert(cells.cells.end(), all.begin(), all.end());
         }
-    });
-    BeamCells cells;
-    for (const Row& row : rows) {
-        for (const std::size_t first : row.first_of) {
-            cells.first_of.push_back(cells.cells.size() + first);
-        }
-        cells.cells.insert(cells.cells.end(), row.cells.begin(), row.cells.end());
     }
     cells.first_of.push_back(cells.cells.size());
     return cells;

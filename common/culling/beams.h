@@ -10,9 +10,9 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "common/base/workers.h"
 #include "common/culling/block_grid.h"
 #include "common/culling/direction_grid.h"
 #include "common/culling/settings.h"
@@ -46,10 +46,25 @@ struct Counted {
     float near, far;  // of the slab, how far along the principal axis in front of where that is counted from
 };
 
-// Cells of directions of beams, one beam after the other, a row of them along u after the other.
-struct BeamCells {
+// The beams of a rectangle of the image: those of the sides [u0, u1) and [v0, v1).
+struct Tile {
+    std::size_t u0, u1, v0, v1;
+};
+
+// Cells of directions of a tile's beams, which are of groups of beams side by side.
+struct TileCells {
+    static constexpr std::size_t group = 2;  // beams a side
+
     std::vector<int> cells;
-    std::vector<std::size_t> first_of;  // of each beam, and of one beyond the last
+    std::vector<std::size_t>
+        first_of;  // of each group, a row of them along u after the other, and of one more
+
+    // Of a beam of the tile.
+    std::span<const int> of(const Tile& tile, std::size_t u, std::size_t v) const {
+        const std::size_t row = (tile.u1 - tile.u0 + group - 1) / group;
+        const std::size_t n = (v - tile.v0) / group * row + (u - tile.u0) / group;
+        return std::span(cells).subspan(first_of[n], first_of[n + 1] - first_of[n]);
+    }
 };
 
 class Beams {
@@ -69,8 +84,10 @@ class Beams {
     // are of what is inside. Nor is it known by how much a ray's first or last sample there is less than a
     // step; and none is of a part of a block.
     std::vector<Counted> counted(const std::vector<Side>& sides, int axis, Footprint footprint) const;
-    // Of all beams' lines, and perhaps some more.
-    BeamCells cells(const DirectionGrid& directions, base::Workers& workers) const;
+    // The image as tiles, each beside the one before; their beams' groups lie alike however it is cut.
+    std::vector<Tile> tiles() const;
+    // Of all of a tile's beams' lines, and perhaps some more.
+    TileCells cells(const Tile& tile, const DirectionGrid& directions) const;
     // World length of a beam's shortest ray from plane to plane of voxels, in the smallest distance of two.
     double shortest_step(const Side& u, const Side& v) const;
 

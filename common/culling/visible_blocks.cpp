@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 
 #include "common/base/check.h"
 #include "common/culling/beams.h"
@@ -34,8 +35,8 @@ struct Said {
 class FacePass {
   public:
     FacePass(const Factorisation& factorisation, const Face& face, const BlockGrid& grid,
-             std::span<const BlockRates> rates, const Settings& settings, BlockSet& visible,
-             base::Workers& workers)
+             std::span<const BlockRates> rates, const Settings& settings, const ImagePart& part,
+             BlockSet& visible, base::Workers& workers)
         : face_(face),
           grid_(grid),
           kind_(settings.kind),
@@ -45,7 +46,13 @@ class FacePass {
           u_met_(beams_.met(beams_.u(), face.u_axis())),
           v_met_(beams_.met(beams_.v(), face.v_axis())) {
         const DirectionGrid& directions = rates.front().directions;
-        cells_ = beams_.cells(directions, workers);
+        for (const Tile& tile : tiles_of(part)) {
+            tiles_.push_back({tile, {}});
+        }
+        workers.for_each(tiles(), [&](std::int64_t n) {
+            Looked& looked = tiles_[static_cast<std::size_t>(n)];
+            looked.cells = beams_.cells(looked.tile, directions);
+        });
         const std::vector<int> needed = count_needed(directions);
         for (const BlockRates& of : rates) {
             base::check(of.directions == directions, "a cube's functions are over the same directions");
@@ -55,32 +62,64 @@ class FacePass {
         }
     }
 
-    std::int64_t rows() const { return static_cast<std::int64_t>(beams_.v().size()); }
+    std::int64_t tiles() const { return static_cast<std::int64_t>(tiles_.size()); }
 
-    void pass_row(std::int64_t row) {
-        const auto j = static_cast<std::size_t>(row);
-        for (std::size_t i = 0; i < beams_.u().size(); ++i) {
-            pass(i, j);
+    void pass_tile(std::int64_t n) {
+        const auto& [tile, cells] = tiles_[static_cast<std::size_t>(n)];
+        for (std::size_t j = tile.v0; j < tile.v1; ++j) {
+            for (std::size_t i = tile.u0; i < tile.u1; ++i) {
+                pass(i, j, cells.of(tile, i, j));
+            }
         }
     }
 
   private:
-    // The cells that beams need, each once; of the beams' is kept which of those it is.
+    struct Looked {
+        Tile tile;
+        TileCells cells;
+    };
+
+    // Tiles beside one another, by what the beams in their middles meet.
+    std::vector<Tile> tiles_of(const ImagePart& part) const {
+        const std::size_t slabs = beams_.slabs().size();
+        const std::vector<Tile> all = beams_.tiles();
+        std::vector<std::int64_t> before{0};  // what so many tiles take
+        for (const Tile& tile : all) {
+            const std::size_t i = std::midpoint(tile.u0, tile.u1 - 1),
+                              j = std::midpoint(tile.v0, tile.v1 - 1);
+            std::int64_t met = 1;
+            for (std::size_t n = 0; n < slabs; ++n) {
+                met += u_met_[i * slabs + n].empty() || v_met_[j * slabs + n].empty() ? 0 : 1;
+            }
+            before.push_back(before.back() + met);
+        }
+        std::vector<Tile> tiles;
+        for (std::size_t n = 0; n < all.size(); ++n) {
+            if ((before[n] + before[n + 1]) * part.parts / (2 * before.back()) == part.part) {
+                tiles.push_back(all[n]);
+            }
+        }
+        return tiles;
+    }
+
+    // The cells that beams need, each once; of the tiles' is kept which of those it is.
     std::vector<int> count_needed(const DirectionGrid& directions) {
         std::vector<int> place(static_cast<std::size_t>(directions.cells()), -1);
         std::vector<int> needed;
-        for (int& cell : cells_.cells) {
-            int& of_cell = place[static_cast<std::size_t>(cell)];
-            if (of_cell < 0) {
-                of_cell = static_cast<int>(needed.size());
-                needed.push_back(cell);
+        for (Looked& looked : tiles_) {
+            for (int& cell : looked.cells.cells) {
+                int& of_cell = place[static_cast<std::size_t>(cell)];
+                if (of_cell < 0) {
+                    of_cell = static_cast<int>(needed.size());
+                    needed.push_back(cell);
+                }
+                cell = of_cell;
             }
-            cell = of_cell;
         }
         return needed;
     }
 
-    void pass(std::size_t i, std::size_t j) {
+    void pass(std::size_t i, std::size_t j, std::span<const int> cells) {
         const Index3 strides{1, grid_.counts()[0], grid_.counts()[0] * grid_.counts()[1]};
         const std::int64_t along = strides[static_cast<std::size_t>(face_.axis)];
         const std::int64_t across_u = strides[static_cast<std::size_t>(face_.u_axis())];
@@ -102,7 +141,7 @@ class FacePass {
             }
             double most = 0;
             for (const Said& said : said_) {
-                most = std::max(most, depth_of(said, i, j, n, slab_first, across_u, across_v, step));
+                most = std::max(most, depth_of(said, i, j, cells, n, slab_first, across_u, across_v, step));
             }
             left -= most;
             if (left <= 0) {
@@ -112,18 +151,18 @@ class FacePass {
     }
 
     // What the functions of a footprint say that a beam gathers in a slab at the least.
-    double depth_of(const Said& said, std::size_t i, std::size_t j, std::size_t slab, std::int64_t slab_first,
-                    std::int64_t across_u, std::int64_t across_v, double step) const {
+    double depth_of(const Said& said, std::size_t i, std::size_t j, std::span<const int> cells,
+                    std::size_t slab, std::int64_t slab_first, std::int64_t across_u, std::int64_t across_v,
+                    double step) const {
         const auto& [by_u, near_u, far_u] = said.u[i * beams_.slabs().size() + slab];
         const auto& [by_v, near_v, far_v] = said.v[j * beams_.slabs().size() + slab];
         const double part = static_cast<double>(std::min(far_u, far_v) - std::max(near_u, near_v));
         if (by_u.empty() || by_v.empty() || part <= 0) {
             return 0;
         }
-        const std::size_t beam = j * beams_.u().size() + i;
         std::uint8_t least = 255;
-        for (std::size_t n = cells_.first_of[beam]; n < cells_.first_of[beam + 1]; ++n) {
-            const BlockCodes& of = said.codes[static_cast<std::size_t>(cells_.cells[n])];
+        for (const int cell : cells) {
+            const BlockCodes& of = said.codes[static_cast<std::size_t>(cell)];
             const auto of_blocks = [&](const auto& code) {
                 for (std::int64_t v = by_v.first; v <= by_v.last; ++v) {
                     for (std::int64_t u = by_u.first; u <= by_u.last; ++u) {
@@ -170,7 +209,7 @@ class FacePass {
     BlockSet& visible_;
     Beams beams_;
     std::vector<Run> u_met_, v_met_;  // of a side's slabs, one side after the other
-    BeamCells cells_;
+    std::vector<Looked> tiles_;
     std::vector<Said> said_;
 };
 
@@ -186,14 +225,16 @@ bool may_hide(const view::Lattice& lattice, std::span<const BlockRates> rates, d
 }  // namespace
 
 BlockSet visible_blocks(const Factorisation& factorisation, const BlockGrid& grid,
-                        std::span<const BlockRates> rates, const Settings& settings, base::Workers& workers) {
+                        std::span<const BlockRates> rates, const Settings& settings, base::Workers& workers,
+                        const ImagePart& part) {
+    base::check(0 <= part.part && part.part < part.parts, "a part is one of all");
     if (!may_hide(factorisation.lattice, rates, depth_that_hides(settings))) {
         return BlockSet(grid.size(), true);
     }
     BlockSet visible(grid.size());
     for (const Face& face : factorisation.faces) {
-        FacePass pass(factorisation, face, grid, rates, settings, visible, workers);
-        workers.for_each(pass.rows(), [&](std::int64_t row) { pass.pass_row(row); });
+        FacePass pass(factorisation, face, grid, rates, settings, part, visible, workers);
+        workers.for_each(pass.tiles(), [&](std::int64_t tile) { pass.pass_tile(tile); });
     }
     return visible;
 }

@@ -67,10 +67,18 @@ struct BlockRates {
     float greatest;  // no block's is more, in no direction
 };
 
-// The rates are of the functions that the settings' kind goes by, which is not off, or of some of them. Of a
-// cropped cube only blocks that are shown from end to end hide anything. All are visible where no ray could
-// be hidden even if every block were as dense as the densest.
+// Which part of the image, of so many that take about as long each and together are all of it.
+struct ImagePart {
+    int part = 0;
+    int parts = 1;
+};
+
+// What a part of the image sees; what all parts see together is what all of it sees at once. The rates are of
+// the functions that the settings' kind goes by, which is not off, or of some of them. Of a cropped cube only
+// blocks that are shown from end to end hide anything. All are visible where no ray could be hidden even if
+// every block were as dense as the densest.
 BlockSet visible_blocks(const view::Factorisation& factorisation, const BlockGrid& grid,
-                        std::span<const BlockRates> rates, const Settings& settings, base::Workers& workers);
+                        std::span<const BlockRates> rates, const Settings& settings, base::Workers& workers,
+                        const ImagePart& part = {});
 
 }  // namespace shearwater::culling
