@@ -198,6 +198,7 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
             const auto& factorisation = factorisations[eye];
             const auto visible =
                 culler ? std::optional(culler->visible(factorisation, tf, culling, workers)) : std::nullopt;
+            spent.look += stopwatch.lap();
             shear::RenderStats of_eye;
             const auto windows = shear::render(loaded.volume(), classification, factorisation, workers,
                                                &of_eye, {}, visible ? &*visible : nullptr);
@@ -209,7 +210,7 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
         const auto mode = view.stereo.mode();
         picture.image =
             mode ? image::composed(pictures.front(), pictures.back(), *mode) : std::move(pictures.front());
-        spent.total = spent.render + spent.warp;
+        spent.total = spent.look + spent.render + spent.warp;
         times.push_back(spent);
         if (script.keep) {
             if (const auto kept = script.keep(i, picture.image); !kept) {
@@ -222,6 +223,7 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
         picture.bricks_empty = stats.bricks_empty;
         picture.bricks_culled = stats.bricks_culled;
         picture.bricks_rendered = stats.bricks_rendered;
+        picture.culling_by = culler ? "process" : "nobody";
     }
     picture.seconds = median(times);
     picture.each = std::move(times);

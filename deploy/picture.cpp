@@ -21,6 +21,7 @@ Seconds median(const std::vector<Seconds>& all) {
     };
     return {.load = of(&Seconds::load),
             .preprocess = of(&Seconds::preprocess),
+            .look = of(&Seconds::look),
             .render = of(&Seconds::render),
             .composite = of(&Seconds::composite),
             .warp = of(&Seconds::warp),
@@ -36,6 +37,7 @@ std::string to_json(const Picture& picture) {
     JsonObject(root.begin("seconds"))
         .add("load", s.load)
         .add("preprocess", s.preprocess)
+        .add("look", s.look)
         .add("render", s.render)
         .add("composite", s.composite)
         .add("warp", s.warp)
@@ -49,6 +51,7 @@ std::string to_json(const Picture& picture) {
         .add("culled", picture.bricks_culled)
         .add("rendered", picture.bricks_rendered)
         .end();
+    root.add("culling_by", quoted(picture.culling_by));
     JsonObject(root.begin("bytes"))
         .add("windows", picture.window_bytes)
         .add("frame", picture.frame_bytes)

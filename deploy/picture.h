@@ -14,6 +14,7 @@ namespace shearwater::deploy {
 struct Seconds {
     double load = 0;        // until the first picture could be drawn
     double preprocess = 0;  // of it, in process: finding the limits
+    double look = 0;        // finding out what is visible
     double render = 0;      // the slowest renderer's
     double composite = 0;   // coding windows and merging them, on the slowest path
     double warp = 0;
@@ -33,6 +34,8 @@ struct Picture {
     std::vector<Seconds> each;  // of every time that it was drawn
     std::uint64_t samples = 0;
     std::uint64_t bricks_total = 0, bricks_empty = 0, bricks_culled = 0, bricks_rendered = 0;
+    std::string culling_by =
+        "nobody";  // who found out what is visible: the server, or renderers, or this process
     std::uint64_t window_bytes = 0;  // up the tree, all links
     std::uint64_t frame_bytes = 0;   // to the client
     std::vector<ProcessMemory> memory;

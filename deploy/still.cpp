@@ -181,6 +181,7 @@ void Still::on_frame(const wire::Message& message, wire::Time now, std::vector<w
         mode ? image::composed(decoded->front(), decoded->back(), *mode) : std::move(decoded->front());
     times_.push_back({.load = load_seconds_,
                       .preprocess = 0,
+                      .look = frame.stats().look_seconds(),
                       .render = leaves.render_seconds(),
                       .composite = leaves.composite_seconds(),
                       .warp = frame.stats().warp_seconds(),
@@ -204,6 +205,9 @@ void Still::on_frame(const wire::Message& message, wire::Time now, std::vector<w
     picture_.bricks_empty = leaves.bricks_empty();
     picture_.bricks_culled = leaves.bricks_culled();
     picture_.bricks_rendered = leaves.bricks_rendered();
+    picture_.culling_by = frame.stats().lookers() > 0        ? "renderers"
+                          : frame.stats().look_seconds() > 0 ? "server"
+                                                             : "nobody";
     picture_.window_bytes = leaves.window_bytes();
     picture_.frame_bytes = message.payload_size();
     finished_ = static_cast<int>(times_.size()) >= script_.pictures;

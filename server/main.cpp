@@ -1,7 +1,7 @@
 // shearwater-server: the head of the tree. Gives daemons their places, clients their pictures.
 
-#include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <filesystem>
@@ -51,12 +51,19 @@ head::CubeFacts facts_of(const fits::CubeInfo& info, const options::CubeOptions&
             .world = info.world};
 }
 
+head::Deciding deciding_of(const options::ServeOptions& serve) {
+    return serve.culling_by == "server"      ? head::Deciding::by_server
+           : serve.culling_by == "renderers" ? head::Deciding::by_renderers
+                                             : head::Deciding::automatic;
+}
+
 head::Limits limits_of(const options::CubeOptions& options, const options::ServeOptions& serve) {
     head::Limits limits{.range = {},
                         .percentile = options.percentile,
                         .stretch = options.stretch_value(),
                         .bits = options.bits,
-                        .level_of_detail = serve.level_of_detail()};
+                        .level_of_detail = serve.level_of_detail(),
+                        .deciding = deciding_of(serve)};
     if (options.range.size() == 2) {
         limits.range = volume::Limits{options.range[0], options.range[1]};
     }

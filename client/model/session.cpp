@@ -67,7 +67,8 @@ Stages stages_of(const pb::FrameStats& stats, Seconds latency) {
         constexpr double longest = 3600;
         return seconds > 0 ? std::min(seconds, longest) : 0.0;
     };
-    return {.render = time(stats.leaves().render_seconds()),
+    return {.look = time(stats.look_seconds()),
+            .render = time(stats.leaves().render_seconds()),
             .composite = time(stats.leaves().composite_seconds()),
             .warp = time(stats.warp_seconds()),
             .code = time(stats.encode_seconds()),

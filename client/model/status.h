@@ -59,6 +59,7 @@ struct Missing {
 // Where a frame's time went (DVR Fig. 8), seconds. Stages overlap, so that their sum may be more than it
 // took.
 struct Stages {
+    double look = 0;       // finding out what is visible
     double render = 0;     // the slowest renderer's
     double composite = 0;  // coding windows and merging them, on the slowest path
     double warp = 0;

@@ -19,6 +19,7 @@ struct Stage {
     ImU32 colour;
 };
 constexpr std::array stages{
+    Stage{"look", &model::Stages::look, IM_COL32(232, 116, 116, 255)},
     Stage{"render", &model::Stages::render, IM_COL32(86, 156, 255, 255)},
     Stage{"composite", &model::Stages::composite, IM_COL32(88, 196, 128, 255)},
     Stage{"warp", &model::Stages::warp, IM_COL32(240, 180, 80, 255)},

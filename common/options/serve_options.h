@@ -1,5 +1,5 @@
 #pragma once
-// The options that say what a server does for clients that do not say: the server's and the one command's.
+// The options that say how a server serves its clients: the server's and the one command's.
 
 #include <string>
 #include <vector>
@@ -9,12 +9,13 @@
 namespace shearwater::options {
 
 struct ServeOptions {
-    std::string lod = "on";
+    std::string lod = "on";  // for clients that do not say
+    std::string culling_by = "auto";
 
     void add_to(CLI::App& app);
 
     bool level_of_detail() const { return lod == "on"; }
-    std::vector<std::string> arguments() const { return {"--lod", lod}; }
+    std::vector<std::string> arguments() const { return {"--lod", lod, "--culling-by", culling_by}; }
 };
 
 }  // namespace shearwater::options

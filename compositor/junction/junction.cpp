@@ -61,6 +61,9 @@ Effects Junction::handle(const wire::NetEvent& event, wire::Time now) {
     for (const wire::RayPart& part : branch_.take_probed()) {
         member_.tell_parent(wire::message(wire::to_wire(part)), effects.net);
     }
+    for (const wire::Reply& reply : branch_.take_replies()) {
+        member_.tell_parent(wire::message(wire::to_wire(reply)), effects.net);
+    }
     for (node::MergeJob& job : branch_.take_complete()) {
         effects.merges.push_back({std::move(job)});
     }
@@ -106,6 +109,10 @@ void Junction::on_parent_message(const wire::Received& received, wire::Time now,
         } else {
             effects.net.emplace_back(wire::CloseLink{received.link, ray.error().reason, ray.error().text});
         }
+    } else if (const auto* give = std::get_if<pb::GiveFunctions>(&message.body)) {
+        branch_.ask(give->request(), message, now, effects.net);
+    } else if (const auto* look = std::get_if<pb::Look>(&message.body)) {
+        branch_.ask(look->request(), message, now, effects.net);
     } else if (std::holds_alternative<pb::WantFunctions>(message.body)) {
         branch_.want_functions(message, effects.net);
     } else if (const auto* mapping = std::get_if<pb::SetMapping>(&message.body)) {

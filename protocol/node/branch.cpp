@@ -116,6 +116,7 @@ void Branch::cancel(std::uint64_t frame, std::vector<NetEffect>& effects) {
 
 void Branch::cancel_all(std::vector<NetEffect>& effects) {
     probes_.forget_all();
+    replies_.forget_all();
     while (!pending_.empty()) {
         const std::uint64_t frame = pending_.begin()->first;
         cancel(frame, effects);
@@ -182,6 +183,7 @@ void Branch::link_down(wire::LinkId link) {
     const std::size_t index = index_of(*child);
     children_[index].link.reset();
     probes_.child_gone(index);
+    replies_.child_gone(index);
     std::erase_if(voxel_routes_, [&](const auto& route) { return route.second.link == link; });
     std::vector<std::uint64_t> touched;
     for (auto& [frame, pending] : pending_) {
@@ -195,6 +197,7 @@ void Branch::link_down(wire::LinkId link) {
 
 void Branch::tick(wire::Time now) {
     probes_.tick(now);
+    replies_.tick(now);
     std::vector<std::uint64_t> late;
     for (auto& [frame, pending] : pending_) {
         if (now - pending.since > patience) {
@@ -228,6 +231,8 @@ std::optional<wire::pb::NeedVoxels> Branch::receive(wire::LinkId link, const wir
         }
     } else if (const auto* probed = std::get_if<wire::pb::Probed>(&message.body)) {
         on_probed(*child, *probed, effects);
+    } else if (const auto* replied = std::get_if<wire::pb::Replied>(&message.body)) {
+        on_replied(*child, *replied, effects);
     } else if (const auto* need = std::get_if<wire::pb::NeedVoxels>(&message.body)) {
         const auto box = wire::box_from(need->box());
         if (!box || !child->spec.reads.contains(*box)) {

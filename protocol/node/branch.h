@@ -15,6 +15,7 @@
 #include "common/volume/histogram.h"
 #include "protocol/node/merge.h"
 #include "protocol/node/probes.h"
+#include "protocol/wire/convert_look.h"
 #include "protocol/wire/events.h"
 
 namespace shearwater::node {
@@ -23,6 +24,7 @@ class Branch {
   public:
     static constexpr std::size_t max_pending = 512;       // frames; more are cut short, oldest first
     static constexpr std::chrono::seconds patience{120};  // for a child's windows of one frame
+    static constexpr std::chrono::seconds reply_patience{5};
 
     struct ChildSpec {
         int place;
@@ -54,8 +56,15 @@ class Branch {
     // Rays of which every child has given its part or will not.
     std::vector<wire::RayPart> take_probed() { return probes_.take_complete(); }
 
-    // A child's Windows, HistogramReport, Functions, Probed, NeedVoxels. Returns a request for voxels that
-    // must go on up (or be served here), if that is what it was. A faulty message closes the child's link.
+    // Asks all children what they are to do together.
+    void ask(std::uint64_t request, const wire::Message& question, wire::Time now,
+             std::vector<wire::NetEffect>& effects);
+    // Of requests that every child has replied to or will not.
+    std::vector<wire::Reply> take_replies() { return replies_.take_complete(); }
+
+    // A child's Windows, HistogramReport, Functions, Probed, Replied, NeedVoxels. Returns a request for
+    // voxels that must go on up (or be served here), if that is what it was. A faulty message closes the
+    // child's link.
     std::optional<wire::pb::NeedVoxels> receive(wire::LinkId link, const wire::Message& message,
                                                 std::vector<wire::NetEffect>& effects);
     // Forgets the link; its child's share of pending frames is missing.
@@ -119,6 +128,8 @@ class Branch {
     void fault(wire::LinkId link, const wire::Fault& fault, std::vector<wire::NetEffect>& effects);
     void on_windows(const Child& child, const wire::Message& message, std::vector<wire::NetEffect>& effects);
     void on_probed(const Child& child, const wire::pb::Probed& probed, std::vector<wire::NetEffect>& effects);
+    void on_replied(const Child& child, const wire::pb::Replied& replied,
+                    std::vector<wire::NetEffect>& effects);
     void on_histogram(std::size_t index, const wire::pb::HistogramReport& report,
                       std::vector<wire::NetEffect>& effects);
     void give_up(Pending& pending, std::size_t index) const;
@@ -138,6 +149,7 @@ class Branch {
     std::optional<wire::Message> wanted_;     // pb::WantFunctions
     std::vector<wire::Message> functions_;
     Probes probes_;
+    Gathering<wire::Reply> replies_{max_pending, reply_patience};
 };
 
 }  // namespace shearwater::node

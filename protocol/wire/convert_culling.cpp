@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/base/check.h"
 #include "common/volume/levels.h"
@@ -9,6 +10,42 @@
 #include "protocol/wire/convert_fields.h"
 
 namespace shearwater::wire {
+
+namespace {
+
+// Some of a table's directions, and their codes.
+std::pair<pb::Functions, base::Buffer> part_of(std::uint64_t number, int place, bool coarse,
+                                               const culling::FunctionTable& table, std::size_t first,
+                                               std::size_t directions) {
+    const std::size_t count = table.block_count();
+    pb::Functions part;
+    part.set_number(number);
+    part.set_place(static_cast<std::uint32_t>(place));
+    part.set_coarse(coarse);
+    *part.mutable_blocks() = to_wire(table.blocks);
+    part.set_side(static_cast<std::uint32_t>(table.side));
+    part.set_first_direction(static_cast<std::uint32_t>(first));
+    part.set_directions(static_cast<std::uint32_t>(directions));
+    const auto codes = std::as_bytes(std::span(table.codes).subspan(first * count, directions * count));
+    return {std::move(part), base::Buffer(codes.begin(), codes.end())};
+}
+
+}  // namespace
+
+pb::Culling to_wire(const culling::Settings& settings) {
+    pb::Culling to;
+    to.set_kind(static_cast<pb::CullingKind>(settings.kind));
+    to.set_threshold(settings.threshold);
+    return to;
+}
+
+Parsed<culling::Settings> culling_from(const pb::Culling& from) {
+    const culling::Settings settings{static_cast<culling::Kind>(from.kind()), from.threshold()};
+    if (const auto status = culling::validate(settings); !status) {
+        return invalid(status.error());
+    }
+    return settings;
+}
 
 pb::FunctionKey to_wire(const culling::FunctionKey& key) {
     pb::FunctionKey to;
@@ -41,18 +78,34 @@ Parsed<culling::FunctionKey> function_key_from(const pb::FunctionKey& key) {
                                 .level = static_cast<int>(key.level())};
 }
 
+std::string bits_of(const culling::BlockSet& blocks) {
+    std::string bits((blocks.size() + 7) / 8, 0);
+    for (std::size_t block = 0; block < blocks.size(); ++block) {
+        if (blocks.contains(block)) {
+            bits[block / 8] = static_cast<char>(bits[block / 8] | 1 << block % 8);
+        }
+    }
+    return bits;
+}
+
+std::optional<culling::BlockSet> blocks_from(std::string_view bits, std::size_t blocks) {
+    if (bits.size() != (blocks + 7) / 8) {
+        return std::nullopt;
+    }
+    culling::BlockSet set(blocks);
+    for (std::size_t block = 0; block < blocks; ++block) {
+        const auto byte = static_cast<unsigned char>(bits[block / 8]);
+        set.bytes()[block] = static_cast<std::uint8_t>(byte >> block % 8 & 1U);
+    }
+    return set;
+}
+
 void put(const culling::VisibleBlocks& visible, pb::Render& render) {
     base::check(visible.blocks.size() <= most_blocks, "a frame's request has room for its blocks");
     if (visible.blocks.count() == visible.blocks.size()) {
         return;
     }
-    std::string& bits = *render.mutable_visible();
-    bits.assign((visible.blocks.size() + 7) / 8, 0);
-    for (std::size_t block = 0; block < visible.blocks.size(); ++block) {
-        if (visible.blocks.contains(block)) {
-            bits[block / 8] = static_cast<char>(bits[block / 8] | 1 << block % 8);
-        }
-    }
+    render.set_visible(bits_of(visible.blocks));
     render.set_block_edge(static_cast<std::uint32_t>(visible.grid.edge()));
 }
 
@@ -64,16 +117,13 @@ Parsed<std::optional<culling::VisibleBlocks>> visible_from(const pb::Render& ren
     if (render.block_edge() != 16 && render.block_edge() != 32) {
         return invalid("render.block_edge: 16 or 32 is wanted");
     }
-    culling::VisibleBlocks visible{culling::BlockGrid(n, render.block_edge()), {}};
-    if (visible.grid.size() > most_blocks || render.visible().size() != (visible.grid.size() + 7) / 8) {
+    const culling::BlockGrid grid(n, render.block_edge());
+    auto blocks = grid.size() <= most_blocks ? blocks_from(render.visible(), grid.size())
+                                             : std::optional<culling::BlockSet>();
+    if (!blocks) {
         return invalid("render.visible: a bit for each block is wanted");
     }
-    visible.blocks = culling::BlockSet(visible.grid.size());
-    for (std::size_t block = 0; block < visible.grid.size(); ++block) {
-        const auto bits = static_cast<unsigned char>(render.visible()[block / 8]);
-        visible.blocks.bytes()[block] = static_cast<std::uint8_t>(bits >> block % 8 & 1U);
-    }
-    return std::optional(std::move(visible));
+    return std::optional(culling::VisibleBlocks{grid, *std::move(blocks)});
 }
 
 std::vector<Message> functions_messages(std::uint64_t number, int place, bool coarse,
@@ -83,25 +133,14 @@ std::vector<Message> functions_messages(std::uint64_t number, int place, bool co
     const std::size_t at_once = std::max<std::size_t>(most_codes / count, 1);
     std::vector<Message> messages;
     for (std::size_t first = 0; first < all; first += at_once) {
-        const std::size_t directions = std::min(at_once, all - first);
-        pb::Functions part;
-        part.set_number(number);
-        part.set_place(static_cast<std::uint32_t>(place));
-        part.set_coarse(coarse);
-        *part.mutable_blocks() = to_wire(table.blocks);
-        part.set_side(static_cast<std::uint32_t>(table.side));
-        part.set_first_direction(static_cast<std::uint32_t>(first));
-        part.set_directions(static_cast<std::uint32_t>(directions));
-        messages.push_back(
-            message(std::move(part),
-                    std::as_bytes(std::span(table.codes).subspan(first * count, directions * count))));
+        auto [part, codes] = part_of(number, place, coarse, table, first, std::min(at_once, all - first));
+        messages.push_back(message(std::move(part), std::move(codes)));
     }
     return messages;
 }
 
-Parsed<FunctionPart> functions_from(const Message& message) {
+Parsed<FunctionPart> functions_from(const pb::Functions& body, const Payload& payload) {
     constexpr std::uint32_t most_side = 360;
-    const auto& body = std::get<pb::Functions>(message.body);
     const auto blocks = box_from(body.blocks());
     if (!blocks) {
         return blocks.error();
@@ -122,7 +161,7 @@ Parsed<FunctionPart> functions_from(const Message& message) {
         body.directions() > all - body.first_direction()) {
         return invalid("functions.directions: some of the grid's are wanted");
     }
-    if (message.payload_size() != count * body.directions()) {
+    if (payload == nullptr || payload->size() != count * body.directions()) {
         return invalid("functions: a byte for each block and direction is wanted");
     }
     return FunctionPart{.number = body.number(),
@@ -132,7 +171,34 @@ Parsed<FunctionPart> functions_from(const Message& message) {
                         .side = static_cast<int>(side),
                         .first_direction = static_cast<int>(body.first_direction()),
                         .directions = static_cast<int>(body.directions()),
-                        .codes = *message.payload};
+                        .codes = *payload};
+}
+
+Message give_functions(std::uint64_t request, const culling::FunctionKey& key, std::uint64_t number,
+                       const culling::FunctionTable& table, int first_direction) {
+    const auto first = static_cast<std::size_t>(first_direction);
+    const std::size_t count = table.block_count();
+    const std::size_t directions =
+        std::min(std::max<std::size_t>(most_given / count, 1), table.codes.size() / count - first);
+    auto [part, codes] = part_of(number, 0, false, table, first, directions);
+    pb::GiveFunctions give;
+    give.set_request(request);
+    *give.mutable_key() = to_wire(key);
+    *give.mutable_functions() = std::move(part);
+    return message(std::move(give), std::move(codes));
+}
+
+Parsed<GivenFunctions> given_functions_from(const Message& message) {
+    const auto& body = std::get<pb::GiveFunctions>(message.body);
+    auto key = function_key_from(body.key());
+    if (!key) {
+        return key.error();
+    }
+    const auto part = functions_from(body.functions(), message.payload);
+    if (!part) {
+        return part.error();
+    }
+    return GivenFunctions{body.request(), *std::move(key), *part};
 }
 
 }  // namespace shearwater::wire

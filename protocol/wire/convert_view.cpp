@@ -1,6 +1,7 @@
 // Cameras, transfer functions and a client's request made of them.
 
 #include "protocol/wire/convert.h"
+#include "protocol/wire/convert_culling.h"
 #include "protocol/wire/convert_fields.h"
 
 namespace shearwater::wire {
@@ -243,8 +244,7 @@ pb::SetView to_wire(const View& view) {
     to.set_sketch(view.sketch);
     to.set_classification(to_wire(view.classify));
     if (view.culling != culling::Settings()) {
-        to.mutable_culling()->set_kind(static_cast<pb::CullingKind>(view.culling.kind));
-        to.mutable_culling()->set_threshold(view.culling.threshold);
+        *to.mutable_culling() = to_wire(view.culling);
     }
     if (view.stereo) {
         to.mutable_stereo()->set_separation(view.stereo->separation);
@@ -286,12 +286,9 @@ Parsed<View> view_from(const pb::SetView& view) {
     if (!classify) {
         return classify.error();
     }
-    culling::Settings culling;
-    if (view.has_culling()) {
-        culling = {static_cast<culling::Kind>(view.culling().kind()), view.culling().threshold()};
-    }
-    if (const auto status = culling::validate(culling); !status) {
-        return invalid(status.error());
+    const auto culling = view.has_culling() ? culling_from(view.culling()) : culling::Settings();
+    if (!culling) {
+        return culling.error();
     }
     const auto stereo = stereo_from(view, *camera, size);
     if (!stereo) {
@@ -314,7 +311,7 @@ Parsed<View> view_from(const pb::SetView& view) {
                 .level_of_detail = view.has_exact() ? std::optional(!view.exact()) : std::nullopt,
                 .sketch = view.sketch(),
                 .classify = *classify,
-                .culling = culling,
+                .culling = *culling,
                 .stereo = *stereo,
                 .crop = *crop,
                 .scaling = *scaling};

@@ -67,6 +67,13 @@ template <>
 constexpr Type type<pb::Functions>{41, {mib, 16 * mib}};
 
 template <>
+constexpr Type type<pb::GiveFunctions>{42, {mib, 16 * mib}};
+template <>
+constexpr Type type<pb::Look>{43, {mib, 0}};
+template <>
+constexpr Type type<pb::Replied>{44, {256 * kib, 0}};
+
+template <>
 constexpr Type type<pb::CubeDescription>{64, {mib, 0}};
 template <>
 constexpr Type type<pb::TreeState>{65, {4 * mib, 0}};

@@ -20,7 +20,8 @@ using Body = std::variant<pb::Challenge, pb::Hello, pb::Welcome, pb::Goodbye, pb
                           pb::Adopt, pb::HistogramReport, pb::SetMapping, pb::NeedVoxels, pb::Voxels,
                           pb::Render, pb::Cancel, pb::Windows, pb::WantFunctions, pb::Functions,       //
                           pb::CubeDescription, pb::TreeState, pb::SetView, pb::Frame, pb::FrameShown,  //
-                          pb::Pick, pb::Picked, pb::Probe, pb::Probed>;
+                          pb::Pick, pb::Picked, pb::Probe, pb::Probed,                                 //
+                          pb::GiveFunctions, pb::Look, pb::Replied>;
 
 // Shared, never changed: a junction passes on what it received without a copy.
 using Payload = std::shared_ptr<const base::Buffer>;

@@ -22,6 +22,7 @@ Jobs::Jobs(int threads, std::function<void(leaf::JobEvent)> tell, std::optional<
       loaders_(threads),
       drawers_(threads),
       finders_(threads, base::Workers::Priority::background),
+      lookers_(threads),
       kept_(std::move(kept)) {
     boost::asio::post(finding_, [] { base::run_in_background(); });
 }
@@ -36,6 +37,7 @@ Jobs::~Jobs() {
     loading_.join();
     drawing_.join();
     finding_.join();
+    looking_.join();
     picking_.join();
 }
 
@@ -85,6 +87,17 @@ void Jobs::perform(leaf::Effect effect) {
         });
     } else if (auto* sampling = std::get_if<leaf::SampleRay>(&effect)) {
         boost::asio::post(picking_, [this, job = std::move(*sampling)] { sample_ray(job); });
+    } else if (auto* learning = std::get_if<leaf::Learn>(&effect)) {
+        boost::asio::post(looking_, [this, job = std::move(*learning)] {
+            lookout_.learn(job.learn);
+            tell_(leaf::Learned{job.job});
+        });
+    } else if (auto* forgotten = std::get_if<node::Forget>(&effect)) {
+        boost::asio::post(looking_, [this, job = std::move(*forgotten)] { lookout_.forget(job); });
+    } else if (auto* looking = std::get_if<leaf::Look>(&effect)) {
+        boost::asio::post(looking_, [this, job = std::move(*looking)] {
+            tell_(leaf::Looked{job.job, lookout_.look(job.look, lookers_)});
+        });
     } else if (auto* drawing = std::get_if<leaf::Draw>(&effect)) {
         boost::asio::post(drawing_, [this, job = std::move(*drawing), stop = begin(drawing->job)] {
             draw(job, stop);

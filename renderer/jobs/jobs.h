@@ -1,8 +1,8 @@
 #pragma once
 // Carries out a leaf's jobs: counting, loading and finding coarse opacity functions on one thread, drawing on
-// another, finding all of them in the background on a third, each with workers that share its loops, and
-// following single rays on a fourth. So a sketch can be drawn while the rest is loading, and a pick need not
-// wait for a picture.
+// another, finding all of them in the background on a third, looking what pictures show on a fourth, each
+// with workers that share its loops, and following single rays on a fifth. So a sketch can be drawn while the
+// rest is loading, what the next picture shows is known while one is drawn, and a pick need not wait for any.
 
 #include <boost/asio/thread_pool.hpp>
 #include <chrono>
@@ -15,6 +15,7 @@
 
 #include "common/base/workers.h"
 #include "common/volume/source.h"
+#include "protocol/node/lookout.h"
 #include "renderer/cache/function_cache.h"
 #include "renderer/jobs/link_source.h"
 #include "renderer/leaf/leaf.h"
@@ -69,7 +70,7 @@ class Jobs {
     void put(SketchToDraw sketch);
 
     std::function<void(leaf::JobEvent)> tell_;
-    base::Workers loaders_, drawers_, finders_;
+    base::Workers loaders_, drawers_, finders_, lookers_;
     // Touched by the drawing thread only.
     std::optional<Drawable> cube_;
     std::optional<SketchToDraw> sketch_;
@@ -77,7 +78,8 @@ class Jobs {
     std::mutex mutex_;
     std::map<leaf::Job, std::stop_source> running_;
     std::map<leaf::Job, std::shared_ptr<LinkSource>> link_sources_;
-    // The cube, for the finding and the picking thread, and what file it is if it is one that this machine can see.
+    // The cube, for the finding and the picking thread, and what file it is if it is one that this machine
+    // can see.
     struct FoundIn {
         Volume volume;
         std::optional<cache::Origin> origin;
@@ -86,7 +88,8 @@ class Jobs {
     std::optional<cache::Content> content_of(const FoundIn& in, const leaf::Find& find) const;
     std::optional<cache::FunctionCache> kept_;
     FoundIn found_in_;
-    boost::asio::thread_pool drawing_{1}, loading_{1}, finding_{1}, picking_{1};
+    node::Lookout lookout_;  // touched by the looking thread only
+    boost::asio::thread_pool drawing_{1}, loading_{1}, finding_{1}, looking_{1}, picking_{1};
 };
 
 }  // namespace shearwater::jobs

@@ -98,6 +98,10 @@ Effects Leaf::handle(JobEvent event, wire::Time now) {
         on_found(*found, effects);
     } else if (const auto* sampled = std::get_if<RaySampled>(&event)) {
         on_sampled(*sampled, effects);
+    } else if (const auto* learned = std::get_if<Learned>(&event)) {
+        reply(learned->job, {}, effects);
+    } else if (const auto* looked = std::get_if<Looked>(&event)) {
+        on_looked(*looked, effects);
     } else if (auto* wanted = std::get_if<VoxelsWanted>(&event)) {
         if (wanted->job == load_job_) {
             wanted_ = *wanted;
@@ -123,8 +127,7 @@ void Leaf::on_assigned(Effects& effects) {
     }
     if (!work_ || !node::same_work(*work_, assign) || phase_ == pb::PHASE_FAILED) {
         stop_loading(effects);
-        stop_finding(effects);
-        told_.clear();
+        forget_functions(effects);
         give_up_frames(effects);
         share_ = Share{.path = assign.cube().path(),
                        .hdu = static_cast<int>(assign.cube().hdu()),
@@ -177,8 +180,7 @@ void Leaf::begin_count(Effects& effects) {
 
 void Leaf::begin_load(Effects& effects) {
     stop_loading(effects);
-    stop_finding(effects);
-    told_.clear();
+    forget_functions(effects);
     if (loaded_mapping_) {
         loaded_mapping_.reset();
         give_up_frames(effects);
@@ -204,10 +206,10 @@ void Leaf::on_parent_up(Effects& effects) {
 }
 
 void Leaf::on_parent_down(Effects& effects) {
-    stop_finding(effects);
+    forget_functions(effects);
     functions_.clear();
-    told_.clear();
     sampling_.clear();
+    replying_.clear();
     // Nobody waits for these frames any more.
     waiting_.clear();
     if (draw_job_ != 0) {
@@ -224,6 +226,10 @@ void Leaf::on_parent_message(const wire::Received& received, Effects& effects) {
         on_cancel(cancel->frame(), effects);
     } else if (const auto* probe = std::get_if<pb::Probe>(&message.body)) {
         on_probe(received.link, *probe, effects);
+    } else if (std::holds_alternative<pb::GiveFunctions>(message.body)) {
+        on_give_functions(received.link, message, effects);
+    } else if (const auto* look = std::get_if<pb::Look>(&message.body)) {
+        on_look(received.link, *look, effects);
     } else if (const auto* want = std::get_if<pb::WantFunctions>(&message.body)) {
         on_want_functions(received.link, *want, effects);
     } else if (const auto* mapping = std::get_if<pb::SetMapping>(&message.body)) {

@@ -9,8 +9,10 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -21,9 +23,12 @@
 #include "common/view/transfer_function.h"
 #include "common/volume/histogram.h"
 #include "common/volume/mapping.h"
+#include "protocol/node/lookout.h"
 #include "protocol/node/member.h"
+#include "protocol/wire/convert_look.h"
 #include "protocol/wire/convert_pick.h"
 #include "protocol/wire/events.h"
+#include "renderer/leaf/given_functions.h"
 
 namespace shearwater::leaf {
 
@@ -78,6 +83,15 @@ struct SampleRay {
     view::Factorisation ray;
     view::TransferFunction tf;
 };
+// Of functions of all of the cube's blocks, and by them; one after the other, and beside all others.
+struct Learn {
+    Job job;
+    node::Learn learn;
+};
+struct Look {
+    Job job;
+    node::Look look;
+};
 struct Stop {  // whatever of this job still runs
     Job job;
 };
@@ -85,7 +99,7 @@ struct HandVoxels {  // an answer to a VoxelsWanted
     Job job;
     wire::Message voxels;
 };
-using Effect = std::variant<Count, Load, Draw, Find, SampleRay, Stop, HandVoxels>;
+using Effect = std::variant<Count, Load, Draw, Find, SampleRay, Learn, node::Forget, Look, Stop, HandVoxels>;
 
 struct Advanced {
     Job job;
@@ -118,6 +132,13 @@ struct RaySampled {
     Job job;
     wire::RayPart part;
 };
+struct Learned {
+    Job job;
+};
+struct Looked {
+    Job job;
+    node::Looked looked;
+};
 // A job that cannot see the cube's file asks for a part of it over the tree, one at a time.
 struct VoxelsWanted {
     Job job;
@@ -127,8 +148,8 @@ struct Memory {
     std::uint64_t resident;
     std::uint64_t peak;
 };
-using JobEvent =
-    std::variant<Advanced, Sketched, Counted, Loaded, Drawn, Found, RaySampled, VoxelsWanted, Memory>;
+using JobEvent = std::variant<Advanced, Sketched, Counted, Loaded, Drawn, Found, RaySampled, Learned, Looked,
+                              VoxelsWanted, Memory>;
 
 struct Effects {
     std::vector<wire::NetEffect> net;
@@ -137,8 +158,9 @@ struct Effects {
 
 class Leaf {
   public:
-    static constexpr std::size_t max_waiting = 64;    // frames; the oldest beyond are dropped
-    static constexpr std::size_t most_sampling = 64;  // rays; those beyond are answered with nothing
+    static constexpr std::size_t max_waiting = 64;     // frames; the oldest beyond are dropped
+    static constexpr std::size_t most_sampling = 64;   // rays; those beyond are answered with nothing
+    static constexpr std::size_t most_replying = 512;  // requests to all leaves; likewise
 
     explicit Leaf(node::MemberOptions options) : member_(std::move(options)) {}
 
@@ -172,6 +194,9 @@ class Leaf {
     void on_found(const Found& found, Effects& effects);
     void on_probe(wire::LinkId link, const wire::pb::Probe& probe, Effects& effects);
     void on_sampled(const RaySampled& sampled, Effects& effects);
+    void on_give_functions(wire::LinkId link, const wire::Message& message, Effects& effects);
+    void on_look(wire::LinkId link, const wire::pb::Look& look, Effects& effects);
+    void on_looked(const Looked& looked, Effects& effects);
     void on_cancel(std::uint64_t frame, Effects& effects);
     void on_mapping(wire::LinkId link, const wire::pb::SetMapping& wanted, Effects& effects);
 
@@ -181,6 +206,11 @@ class Leaf {
     void stop_loading(Effects& effects);
     void find_next(Effects& effects);
     void stop_finding(Effects& effects);
+    void forget_functions(Effects& effects);  // found and given
+    void keep_given(std::span<const std::uint64_t> numbers, Effects& effects);
+    std::optional<Job> begin_reply(std::uint64_t request);
+    void reply(Job job, std::string visible, Effects& effects);
+    void send_reply(const wire::Reply& reply, Effects& effects) const;
     int sketch_to_make() const { return sketched_ ? 0 : sketch_level_; }
     bool can_draw(const Waiting& wanted) const;
     void give_up_frames(Effects& effects);
@@ -224,6 +254,8 @@ class Leaf {
     Job find_job_ = 0;
     std::uint64_t finding_ = 0;  // number of find_job_
     std::set<Job> sampling_;
+    GivenFunctions given_;
+    std::map<Job, std::uint64_t> replying_;  // requests
     wire::Time last_report_{};
 };
 

@@ -15,12 +15,14 @@ namespace pb = wire::pb;
 void Leaf::on_want_functions(wire::LinkId link, const pb::WantFunctions& want, Effects& effects) {
     constexpr std::uint32_t most_side = 360;
     std::vector<WantedFunctions> functions;
+    std::vector<std::uint64_t> numbers;
     for (const pb::FunctionWant& wanted : want.wants()) {
         auto key = wire::function_key_from(wanted.key());
         if (!key) {
             effects.net.emplace_back(wire::CloseLink{link, key.error().reason, key.error().text});
             return;
         }
+        numbers.push_back(wanted.number());
         if (share_ && std::ranges::find(wanted.known(), share_->place) == wanted.known().end()) {
             functions.push_back({wanted.number(), *std::move(key)});
         }
@@ -39,6 +41,7 @@ void Leaf::on_want_functions(wire::LinkId link, const pb::WantFunctions& want, E
         side_ = static_cast<int>(want.side());
     }
     functions_ = std::move(functions);
+    keep_given(numbers, effects);
     if (find_job_ != 0 &&
         std::ranges::find(functions_, finding_, &WantedFunctions::number) == functions_.end()) {
         stop_finding(effects);
@@ -81,6 +84,12 @@ void Leaf::stop_finding(Effects& effects) {
         effects.jobs.emplace_back(Stop{find_job_});
         find_job_ = 0;
     }
+}
+
+void Leaf::forget_functions(Effects& effects) {
+    stop_finding(effects);
+    told_.clear();
+    keep_given({}, effects);
 }
 
 }  // namespace shearwater::leaf

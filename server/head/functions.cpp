@@ -15,7 +15,8 @@ constexpr int all_directions =
 
 }  // namespace
 
-bool Functions::need(wire::LinkId client, const view::TransferFunction& tf, culling::Kind kind, int level) {
+Functions::Needed Functions::need(wire::LinkId client, const view::TransferFunction& tf, culling::Kind kind,
+                                  int level) {
     ++clock_;
     std::vector<culling::Basis> bases;
     std::vector<FunctionKey> keys;
@@ -32,11 +33,13 @@ bool Functions::need(wire::LinkId client, const view::TransferFunction& tf, cull
         need = {std::move(bases), kind, {}};
         news_ = fresh_ = true;
     }
-    bool any = false;
+    Needed needed{.all = true};
     for (const FunctionKey& key : keys) {
         Entry& of = entry(key);
         of.used = clock_;
-        any = any || of.any;
+        needed.any = needed.any || of.any;
+        needed.all = needed.all && all_known(of);
+        needed.numbers.push_back(of.number);
         if (std::ranges::find(need.numbers, of.number) == need.numbers.end()) {
             need.numbers.push_back(of.number);
             news_ = fresh_ = true;
@@ -51,7 +54,7 @@ bool Functions::need(wire::LinkId client, const view::TransferFunction& tf, cull
         entries_.erase(oldest);
         news_ = fresh_ = true;
     }
-    return any;
+    return needed;
 }
 
 void Functions::forget(wire::LinkId client) {
@@ -129,6 +132,11 @@ std::optional<wire::Message> Functions::take_wanted(wire::Time now) {
     want.set_side(static_cast<std::uint32_t>(culling::DirectionGrid::default_side));
     want.set_renewal(renewal_);
     return wire::message(std::move(want));
+}
+
+std::optional<FunctionKey> Functions::key_of(std::uint64_t number) const {
+    const auto found = std::ranges::find(entries_, number, &Entry::number);
+    return found != entries_.end() ? std::optional(found->key) : std::nullopt;
 }
 
 std::optional<FunctionKey> Functions::came(const wire::FunctionPart& part, wire::Time now) {

@@ -26,8 +26,13 @@ class Functions {
     explicit Functions(std::size_t renderers) : renderers_(renderers) {}
 
     // What a client's view by a kind of functions on a level goes by. As long as its pins keep their shapes,
-    // what it needed on other levels is still wanted. Whether there is something of it.
-    bool need(wire::LinkId client, const view::TransferFunction& tf, culling::Kind kind, int level);
+    // what it needed on other levels is still wanted.
+    struct Needed {
+        bool any = false;                         // there is something of it
+        bool all = false;                         // there is all of it
+        std::vector<std::uint64_t> numbers = {};  // of the functions
+    };
+    Needed need(wire::LinkId client, const view::TransferFunction& tf, culling::Kind kind, int level);
     void forget(wire::LinkId client);
     // Values are mapped anew: none of the functions hold any more.
     void drop_all();
@@ -37,6 +42,8 @@ class Functions {
     // What is not kept any longer since this was last asked.
     std::vector<culling::FunctionKey> take_dropped() { return std::exchange(dropped_, {}); }
 
+    // The key that a number is of, if that is kept.
+    std::optional<culling::FunctionKey> key_of(std::uint64_t number) const;
     // Something has come; the key that it is of, if that is kept.
     std::optional<culling::FunctionKey> came(const wire::FunctionPart& part, wire::Time now);
 

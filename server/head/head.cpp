@@ -50,8 +50,13 @@ Effects Head::handle(JobEvent event, wire::Time now) {
         on_measured(*measured, effects);
         return effects;
     }
-    if (auto* looked = std::get_if<Looked>(&event)) {
-        on_looked(std::move(*looked), now, effects);
+    if (const auto* looked = std::get_if<node::Looked>(&event)) {
+        on_looked(looked->number, looked->visible, now, effects);
+        collect(now, effects);
+        return effects;
+    }
+    if (auto* given = std::get_if<Given>(&event)) {
+        on_given(std::move(*given), now, effects);
         collect(now, effects);
         return effects;
     }

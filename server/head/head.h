@@ -15,13 +15,19 @@
 
 #include "common/volume/mapping.h"
 #include "protocol/node/branch.h"
+#include "protocol/node/lookout.h"
 #include "protocol/node/merge.h"
 #include "protocol/wire/convert.h"
 #include "server/head/functions.h"
 #include "server/head/picks.h"
 #include "server/head/roster.h"
+#include "server/head/sharing.h"
 
 namespace shearwater::head {
+
+// Who finds out what is visible: the server; or its renderers, each for a part of the picture, once they have
+// the functions of all blocks. Automatic: those, where they are on other machines and there are many blocks.
+enum class Deciding { automatic, by_server, by_renderers };
 
 // How values become codes: limits given, or cut from the histogram by percentile.
 struct Limits {
@@ -30,6 +36,7 @@ struct Limits {
     volume::Stretch stretch = volume::Stretch::linear;
     int bits = 8;
     bool level_of_detail = true;  // for clients that do not say
+    Deciding deciding = Deciding::automatic;
 };
 
 // ---- jobs carried out away from the network's thread ----
@@ -47,29 +54,23 @@ struct Finish {
     std::uint64_t frame;
     std::size_t eyes;
     std::shared_ptr<const wire::View> view;
-    wire::Time asked;     // when the view arrived
-    bool sketch = false;  // it is of the sketch
+    wire::Time asked;         // when the view arrived
+    bool sketch = false;      // it is of the sketch
+    double look_seconds = 0;  // until it was known what is visible
+    int lookers = 0;          // renderers that found it out; 0: the server did, if anybody
 };
 // or, of each that was begun, an end without a picture.
 struct GiveUp {
     std::uint64_t frame;
 };
-// What an eye's rays may see, before it is asked for;
-struct Look {
-    std::uint64_t frame;
-    view::Factorisation factorisation;
-    view::TransferFunction tf;
-    culling::Settings settings;
-};
-// by what renderers have told of their blocks.
-struct Learn {
+// What an eye's rays may see is looked at before it is asked for (node::Look, by its number), by what
+// renderers have told of their blocks (node::Learn, node::Forget); and they are given that of all blocks, for
+// those to look who are asked to.
+struct Give {
+    std::uint64_t request;
     culling::FunctionKey key;
-    volume::Index3 n{};       // of the cube
-    volume::Box box;          // of the renderer
-    wire::Message functions;  // pb::Functions, sound
-};
-struct Forget {
-    culling::FunctionKey key;
+    std::uint64_t number;
+    int first_direction;
 };
 struct ReadVoxels {
     wire::pb::NeedVoxels need;  // of a box inside the cube
@@ -80,15 +81,16 @@ struct Measure {
     volume::Index3 n{};  // of the cube
     view::Vec3 at;
 };
-using Job = std::variant<Lay, Finish, GiveUp, Look, Learn, Forget, ReadVoxels, Measure>;
+using Job =
+    std::variant<Lay, Finish, GiveUp, node::Look, node::Learn, node::Forget, Give, ReadVoxels, Measure>;
 
 struct Finished {
     std::uint64_t number;
     wire::Message frame;  // pb::Frame
 };
-struct Looked {
-    std::uint64_t frame;
-    culling::VisibleBlocks visible;
+struct Given {
+    std::uint64_t request;
+    std::optional<wire::Message> functions;  // pb::GiveFunctions; none where there are no such any more
 };
 struct VoxelsRead {
     wire::Message voxels;  // pb::Voxels
@@ -97,7 +99,7 @@ struct Measured {
     std::uint64_t number;
     double value;  // not a number where there is none, or it cannot be read
 };
-using JobEvent = std::variant<Finished, Looked, VoxelsRead, Measured>;
+using JobEvent = std::variant<Finished, node::Looked, Given, VoxelsRead, Measured>;
 
 struct Effects {
     std::vector<wire::NetEffect> net;
@@ -109,6 +111,8 @@ class Head {
     static constexpr std::size_t frames_in_flight = 2;  // a client
     static constexpr std::size_t max_clients = 64;
     static constexpr std::size_t max_eyes = 2;
+    // Of so many blocks and more it pays to share (Deciding::automatic).
+    static constexpr std::size_t many_blocks = std::size_t{1} << 15;
     static_assert(frames_in_flight * max_eyes * max_clients < node::Branch::max_pending);
 
     Head(Roster roster, Limits limits);
@@ -140,6 +144,9 @@ class Head {
         // What is asked for once it is known what is visible.
         std::optional<wire::pb::Render> render = {};
         view::Factorisation factorisation = {};
+        wire::Time look_begun = {};
+        double look_seconds = 0;
+        int lookers = 0;
     };
     struct FrameInWork {
         wire::LinkId client;
@@ -149,6 +156,7 @@ class Head {
         std::vector<Eye> eyes;
 
         bool merged() const;  // it is being finished: the last of the warp is to come
+        Finish finish(std::uint64_t number) const;
     };
 
     void on_link_up(const wire::LinkUp& up, Effects& effects);
@@ -187,9 +195,16 @@ class Head {
                                                const std::vector<view::Camera>& cameras, bool sketch) const;
     void begin_eyes(std::uint64_t number, FrameInWork& frame, const std::optional<volume::Mapping>& sketch,
                     wire::Time now, Effects& effects);
-    // Whether a view's frame is to have what is hidden left out, and something is known of that.
-    bool can_cull(wire::LinkId client, const wire::View& view, int level);
-    void on_looked(Looked looked, wire::Time now, Effects& effects);
+    // The functions that a view's frame goes by, where what is hidden is to be left out and something is
+    // known of that.
+    std::optional<Functions::Needed> needed_functions(wire::LinkId client, const wire::View& view, int level);
+    bool shares_looking() const;
+    void begin_look(std::uint64_t number, const wire::View& view, Eye& eye, const Functions::Needed& needed,
+                    wire::Time now, Effects& effects);
+    void on_looked(std::uint64_t number, const culling::VisibleBlocks& visible, wire::Time now,
+                   Effects& effects);
+    void settle_replies(wire::Time now, Effects& effects);
+    void on_given(Given given, wire::Time now, Effects& effects);
     void settle_functions(wire::Time now, Effects& effects);
     wire::Parsed<view::Factorisation> ray_of(const wire::PickRequest& pick) const;
     void on_pick(wire::LinkId client, const wire::pb::Pick& pick, wire::Time now, Effects& effects);
@@ -203,6 +218,7 @@ class Head {
     Limits limits_;
     node::Branch branch_;
     Functions functions_;
+    Sharing sharing_;
     Picks picks_;
     std::optional<volume::Mapping> mapping_;
     bool asked_for_ = false;                        // mapping_, by a client

@@ -15,6 +15,15 @@ bool Head::FrameInWork::merged() const {
     return std::ranges::all_of(eyes, &Eye::merged);
 }
 
+Finish Head::FrameInWork::finish(std::uint64_t number) const {
+    Finish finish{.frame = number, .eyes = eyes.size(), .view = view, .asked = asked, .sketch = sketch};
+    for (const Eye& eye : eyes) {
+        finish.look_seconds = std::max(finish.look_seconds, eye.look_seconds);
+        finish.lookers = std::max(finish.lookers, eye.lookers);
+    }
+    return finish;
+}
+
 // Of the frame that an eye's number is of, and of the eye.
 std::pair<Head::FrameInWork*, Head::Eye*> Head::find_eye(std::uint64_t number) {
     const auto after = frames_.upper_bound(number);
@@ -152,7 +161,8 @@ void Head::begin_eyes(std::uint64_t number, FrameInWork& frame, const std::optio
                       wire::Time now, Effects& effects) {
     const wire::View& view = *frame.view;
     const auto factorisations = factorise(view, wire::cameras_of(view), frame.sketch);
-    const bool culled = !sketch && can_cull(frame.client, view, factorisations.front().level());
+    const auto needed =
+        sketch ? std::nullopt : needed_functions(frame.client, view, factorisations.front().level());
     for (std::size_t n = 0; n < frame.eyes.size(); ++n, ++number) {
         pb::Render render;
         if (sketch) {
@@ -161,10 +171,10 @@ void Head::begin_eyes(std::uint64_t number, FrameInWork& frame, const std::optio
         render.set_frame(number);
         *render.mutable_factorisation() = wire::to_wire(factorisations[n]);
         *render.mutable_transfer_function() = wire::to_wire(view.tf);
-        if (culled) {
+        if (needed) {
             frame.eyes[n].render = std::move(render);
             frame.eyes[n].factorisation = factorisations[n];
-            effects.jobs.emplace_back(Look{number, factorisations[n], view.tf, view.culling});
+            begin_look(number, view, frame.eyes[n], *needed, now, effects);
         } else {
             branch_.begin(factorisations[n], render, now, effects.net);
         }
@@ -172,6 +182,7 @@ void Head::begin_eyes(std::uint64_t number, FrameInWork& frame, const std::optio
 }
 
 void Head::collect(wire::Time now, Effects& effects) {
+    settle_replies(now, effects);
     settle_functions(now, effects);
     settle_picks(effects);
     settle_sketch(now, effects);
@@ -187,8 +198,7 @@ void Head::collect(wire::Time now, Effects& effects) {
         effects.jobs.emplace_back(Lay{std::move(job), frame->view, eye->camera});
         if (frame->merged()) {
             const std::uint64_t first = number - static_cast<std::uint64_t>(eye - frame->eyes.data());
-            effects.jobs.emplace_back(
-                Finish{first, frame->eyes.size(), frame->view, frame->asked, frame->sketch});
+            effects.jobs.emplace_back(frame->finish(first));
         }
     }
 }

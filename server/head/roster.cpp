@@ -48,6 +48,7 @@ std::optional<tree::Place> Roster::join(wire::LinkId link, const pb::Join& join,
     holder = {};
     holder.link = link;
     holder.name = peer.peer_name;
+    holder.host = peer.peer_host;
     holder.listen = {join.listen_host().empty() ? peer.peer_host : join.listen_host(),
                      static_cast<std::uint16_t>(join.listen_port())};
     holder.report.set_phase(pb::PHASE_JOINED);
@@ -145,6 +146,14 @@ bool Roster::all_settled() const {
         const pb::Phase phase = holder.report.phase();
         return holder.link && !holder.report.parent_lost() &&
                (phase == pb::PHASE_READY || phase == pb::PHASE_FAILED);
+    });
+}
+
+bool Roster::any_elsewhere() const {
+    return std::ranges::any_of(holders_, [](const Holder& holder) {
+        const bool is_here =
+            holder.host.starts_with("127.") || holder.host == "::1" || holder.host.starts_with("::ffff:127.");
+        return holder.link && !is_here;
     });
 }
 

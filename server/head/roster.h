@@ -50,8 +50,9 @@ class Roster {
     };
     std::optional<Order> order_for(tree::Place place, const std::optional<volume::Mapping>& mapping) const;
 
-    bool all_ready() const;    // every renderer holds its bricks, every link of the tree is up
-    bool all_settled() const;  // every renderer is ready or has failed
+    bool all_ready() const;      // every renderer holds its bricks, every link of the tree is up
+    bool all_settled() const;    // every renderer is ready or has failed
+    bool any_elsewhere() const;  // some daemon is on another machine than the server
     wire::pb::TreeState state() const;
     // Whether anything people see changed since this was last asked.
     bool take_news();
@@ -64,6 +65,7 @@ class Roster {
     struct Holder {
         std::optional<wire::LinkId> link;  // nothing: vacant
         std::string name;
+        std::string host;      // numeric address
         wire::Address listen;  // compositors
         wire::pb::Report report;
     };

@@ -38,13 +38,18 @@ void Service::perform(head::Job job) {
         boost::asio::post(frames_, [this, work = std::move(*frame)] { finish(work); });
     } else if (auto* given_up = std::get_if<head::GiveUp>(&job)) {
         boost::asio::post(frames_, [this, number = given_up->frame] { pictures_.give_up(number); });
-    } else if (auto* look = std::get_if<head::Look>(&job)) {
+    } else if (auto* look = std::get_if<node::Look>(&job)) {
         boost::asio::post(looking_,
                           [this, work = std::move(*look)] { tell_(lookout_.look(work, lookers_)); });
-    } else if (auto* learn = std::get_if<head::Learn>(&job)) {
+    } else if (auto* learn = std::get_if<node::Learn>(&job)) {
         boost::asio::post(learning_, [this, work = std::move(*learn)] { lookout_.learn(work); });
-    } else if (auto* forget = std::get_if<head::Forget>(&job)) {
+    } else if (auto* forget = std::get_if<node::Forget>(&job)) {
         boost::asio::post(learning_, [this, work = std::move(*forget)] { lookout_.forget(work); });
+    } else if (auto* give = std::get_if<head::Give>(&job)) {
+        boost::asio::post(learning_, [this, work = std::move(*give)] {
+            tell_(head::Given{work.request,
+                              lookout_.give(work.request, work.key, work.number, work.first_direction)});
+        });
     } else if (auto* read = std::get_if<head::ReadVoxels>(&job)) {
         boost::asio::post(reading_, [this, work = std::move(*read)] { read_voxels(work); });
     } else if (const auto* measuring = std::get_if<head::Measure>(&job)) {
@@ -66,6 +71,8 @@ void Service::finish(const head::Finish& job) {
     *stats->mutable_leaves() = picture.account.stats;
     stats->set_warp_seconds(picture.warp_seconds);
     stats->set_encode_seconds(picture.encode_seconds + base::seconds_since(encode_begin));
+    stats->set_look_seconds(job.look_seconds);
+    stats->set_lookers(static_cast<std::uint32_t>(job.lookers));
     stats->set_total_seconds(base::seconds_since(job.asked));
     tell_(head::Finished{job.frame, std::move(message)});
 }

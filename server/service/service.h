@@ -1,7 +1,7 @@
 #pragma once
 // Carries out the head's jobs: finishing frames on one thread that shares its loops with the workers, looking
-// what is visible on another, putting opacity functions together on a third, and reading voxels for renderers
-// that cannot see the file, and for picks, on a fourth.
+// what is visible on another, putting opacity functions together and giving them away on a third, and reading
+// voxels for renderers that cannot see the file, and for picks, on a fourth.
 
 #include <boost/asio/thread_pool.hpp>
 #include <functional>
@@ -9,8 +9,8 @@
 
 #include "common/base/workers.h"
 #include "common/volume/source.h"
+#include "protocol/node/lookout.h"
 #include "server/head/head.h"
-#include "server/head/lookout.h"
 #include "server/head/pictures.h"
 
 namespace shearwater::service {
@@ -34,7 +34,7 @@ class Service {
     std::function<void(head::JobEvent)> tell_;
     base::Workers workers_, lookers_;
     head::Pictures pictures_;  // touched by the frames' thread only
-    head::Lookout lookout_;    // touched by the learning and the looking thread
+    node::Lookout lookout_;    // touched by the learning and the looking thread
     boost::asio::thread_pool frames_{1};
     boost::asio::thread_pool looking_{1};
     boost::asio::thread_pool learning_{1};  // in the background

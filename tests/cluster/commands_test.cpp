@@ -149,9 +149,9 @@ TEST_F(Commands, SnapshotReportsInJson) {
         const Outcome outcome =
             run("snapshot " + cube_ + " -o " + png_ + " --json - --repeat 3 --tree " + tree);
         ASSERT_EQ(outcome.status, 0) << outcome.err;
-        for (const char* key :
-             {"seconds", "load", "preprocess", "render", "composite", "warp", "encode", "total", "samples",
-              "bricks", "empty", "culled", "rendered", "bytes", "peak_bytes", "tree"}) {
+        for (const char* key : {"seconds", "load", "preprocess", "look", "render", "composite", "warp",
+                                "encode", "total", "samples", "bricks", "empty", "culled", "rendered",
+                                "culling_by", "bytes", "peak_bytes", "tree"}) {
             EXPECT_NE(outcome.out.find('"' + std::string(key) + '"'), std::string::npos) << key << "\n"
                                                                                          << outcome.out;
         }

@@ -34,12 +34,13 @@ view::TransferFunction fog(double height) {
 
 class CullingTree : public testing::Test {
   protected:
-    void start(int branching, int levels) {
+    void start(int branching, int levels, const std::string& by = "auto") {
         ASSERT_TRUE(samples::write_sample("random", {114, 81, 85}, 3, path_));
         deploy::LocalTree::Options options;
         options.cube.path = path_;
         options.cube.range = {0, 1};
         options.tree.tree = {branching, levels};
+        options.serve.culling_by = by;
         auto tree = deploy::LocalTree::start(options, secret_);
         ASSERT_TRUE(tree) << tree.error().message();
         tree_.emplace(*std::move(tree));
@@ -47,15 +48,19 @@ class CullingTree : public testing::Test {
         ASSERT_TRUE(client_->wait_ready() && client_->wait_described());
     }
 
-    // Draws the view until something of it is left out, and compares it with all of it.
-    void expect_left_out(wire::View view) {
+    // Draws the view until something of it is left out, found out by renderers if they are to, and compares
+    // it with all of it.
+    void expect_left_out(wire::View view, bool by_renderers = false) {
+        const auto is_left_out = [&](const support::Shot& shot) {
+            return shot.stats.leaves().bricks_culled() > 0 && (shot.stats.lookers() > 0 || !by_renderers);
+        };
         const auto all = client_->draw(view);
         ASSERT_TRUE(all);
         EXPECT_EQ(all->stats.leaves().bricks_culled(), 0U);
         view.culling = {.kind = culling::Kind::opof};
         std::optional<support::Shot> some;
         auto pause = std::chrono::steady_clock::duration(std::chrono::milliseconds(20));
-        for (int n = 0; n < 2000 && (!some || some->stats.leaves().bricks_culled() == 0); ++n) {
+        for (int n = 0; n < 2000 && (!some || !is_left_out(*some)); ++n) {
             // Functions are found when nothing else has the processors: most of the time is left to them,
             // however long a picture takes.
             std::this_thread::sleep_for(pause);
@@ -68,7 +73,7 @@ class CullingTree : public testing::Test {
                 EXPECT_LE(support::difference(some->right, all->right).largest, 1);
             }
         }
-        EXPECT_GT(some->stats.leaves().bricks_culled(), 0U);
+        EXPECT_TRUE(is_left_out(*some));
         std::cout << some->stats.leaves().bricks_culled() << " of " << some->stats.leaves().bricks_total()
                   << " bricks left out, samples " << all->stats.leaves().samples() << " -> "
                   << some->stats.leaves().samples() << "\n";
@@ -115,6 +120,21 @@ TEST_F(CullingTree, GoesOnOverADeathOfARenderer) {
         return client_->state().ready();
     }));
     expect_left_out(view_at(*client_->lattice(), 30, fog(0.9)));
+}
+
+// Each renderer looks at a part of the picture, by functions of all blocks; one that comes back is given them
+// again.
+TEST_F(CullingTree, RenderersFindOutWhatIsHidden) {
+    start(2, 3, "renderers");
+    const wire::View view = view_at(*client_->lattice(), 10, fog(0.9));
+    expect_left_out(view, true);
+    ASSERT_EQ(kill(tree_->daemon_ids().back(), SIGKILL), 0);
+    ASSERT_TRUE(client_->wait_until([&] { return !client_->state().ready(); }));
+    ASSERT_TRUE(client_->wait_until([&] {
+        tree_->keep_alive();
+        return client_->state().ready();
+    }));
+    expect_left_out(view, true);
 }
 
 }  // namespace

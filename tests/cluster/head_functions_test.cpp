@@ -40,7 +40,7 @@ wire::FunctionPart part(std::uint64_t number, int place, bool coarse, int first,
 TEST(HeadFunctions, AreAskedForOnceAViewNeedsThem) {
     Functions functions(2);
     EXPECT_FALSE(functions.take_wanted(begun + 1s));
-    EXPECT_FALSE(functions.need(client, hats(0.5, 0.4), Kind::opof, 0)) << "nothing is there";
+    EXPECT_FALSE(functions.need(client, hats(0.5, 0.4), Kind::opof, 0).any);
     const auto want = wanted(functions, begun + 2s);
     ASSERT_EQ(want.wants_size(), 2);
     EXPECT_EQ(wire::function_key_from(want.wants(0).key())->footprint, culling::Footprint::block);
@@ -87,7 +87,7 @@ TEST(HeadFunctions, ThatCameAreKnownByPlace) {
     functions.need(client, hats(0.5, 0.4), Kind::opof, 0);
     const std::uint64_t number = wanted(functions, begun + 1s).wants(0).number();
     EXPECT_TRUE(functions.came(part(number, 3, true, 0, 648), begun + 2s));
-    EXPECT_TRUE(functions.need(client, hats(0.5, 0.4), Kind::opof, 0)) << "coarse ones do";
+    EXPECT_TRUE(functions.need(client, hats(0.5, 0.4), Kind::opof, 0).any) << "coarse ones do";
     EXPECT_TRUE(functions.came(part(number, 3, false, 0, 400), begun + 2s));
     EXPECT_TRUE(functions.came(part(number, 3, false, 400, 248), begun + 2s));
     EXPECT_FALSE(functions.came(part(number + 2, 3, false, 0, 648), begun + 2s)) << "never asked for";

@@ -6,6 +6,7 @@
 
 #include "common/volume/interpolate.h"
 #include "renderer/shear/ray_samples.h"
+#include "tests/support/simulated_views.h"
 #include "tests/support/simulation.h"
 
 namespace shearwater {
@@ -13,22 +14,6 @@ namespace {
 
 constexpr volume::Index3 cube{21, 18, 25};
 constexpr view::ImageSize size{64, 48};
-
-class Blobs final : public volume::VoxelSource {
-  public:
-    bool concurrent() const override { return true; }
-    base::Status read(const volume::Box& box, std::span<float> out) override {
-        std::size_t i = 0;
-        for (std::int64_t z = box.lo[2]; z <= box.hi[2]; ++z) {
-            for (std::int64_t y = box.lo[1]; y <= box.hi[1]; ++y) {
-                for (std::int64_t x = box.lo[0]; x <= box.hi[0]; ++x) {
-                    out[i++] = static_cast<float>((x * 7 + y * 11 + z * 5) % 23);
-                }
-            }
-        }
-        return {};
-    }
-};
 
 std::vector<wire::PickRequest> questions() {
     std::vector<wire::PickRequest> all;
@@ -64,7 +49,7 @@ wire::PickAnswer ask(support::Simulation& simulation, const wire::PickRequest& q
 }
 
 TEST(Pick, IsAnsweredAlikeByEveryTree) {
-    Blobs source;
+    support::Waves source(true);
     std::optional<shear::BrickVolume> whole;
     base::Workers workers{1};
     const view::Lattice lattice{.n = cube};
@@ -104,7 +89,7 @@ TEST(Pick, IsAnsweredAlikeByEveryTree) {
 
 // A leaf that is gone makes an answer incomplete if the ray may meet its part, and holds up none.
 TEST(Pick, IsAnsweredWithoutALeafThatIsGone) {
-    Blobs source;
+    support::Waves source(true);
     support::Simulation simulation(5, *tree::full_tree(2, 3), cube, source);
     start_all(simulation);
     const std::vector<wire::PickRequest> all = questions();
@@ -121,7 +106,7 @@ TEST(Pick, IsAnsweredWithoutALeafThatIsGone) {
 
 // While a leaf counts and loads it has nothing to say.
 TEST(Pick, IsAnsweredBeforeTheTreeIsReady) {
-    Blobs source;
+    support::Waves source(true);
     support::Simulation simulation(6, *tree::full_tree(2, 2), cube, source);
     const wire::PickAnswer answer = ask(simulation, questions()[1]);
     EXPECT_TRUE(answer.incomplete);
@@ -130,7 +115,7 @@ TEST(Pick, IsAnsweredBeforeTheTreeIsReady) {
 
 // Of picks that come faster than answers the newest is answered, and nothing piles up.
 TEST(Pick, TheNewestWins) {
-    Blobs source;
+    support::Waves source(true);
     support::Simulation simulation(7, *tree::full_tree(2, 3), cube, source);
     start_all(simulation);
     wire::PickRequest question = questions()[1];
@@ -145,7 +130,7 @@ TEST(Pick, TheNewestWins) {
 
 // A pick that is none ends its client's link, and nothing else.
 TEST(Pick, OneThatIsNoneEndsTheLink) {
-    Blobs source;
+    support::Waves source(true);
     wire::PickRequest outside = questions()[1], elsewhere = outside, beyond = questions()[3];
     outside.at.x = -1;
     elsewhere.crop = volume::Box{{0, 0, 0}, {400, 400, 400}};

@@ -2,54 +2,17 @@
 
 #include <gtest/gtest.h>
 
-#include "protocol/wire/picture.h"
 #include "tests/support/pictures.h"
+#include "tests/support/simulated_views.h"
 #include "tests/support/simulation.h"
 
 namespace shearwater {
 namespace {
 
-class Waves final : public volume::VoxelSource {
-  public:
-    explicit Waves(bool concurrent = false) : concurrent_(concurrent) {}
-    bool concurrent() const override { return concurrent_; }
-    base::Status read(const volume::Box& box, std::span<float> out) override {
-        std::size_t i = 0;
-        for (std::int64_t z = box.lo[2]; z <= box.hi[2]; ++z) {
-            for (std::int64_t y = box.lo[1]; y <= box.hi[1]; ++y) {
-                for (std::int64_t x = box.lo[0]; x <= box.hi[0]; ++x) {
-                    out[i++] = static_cast<float>((x * 7 + y * 11 + z * 5) % 23);
-                }
-            }
-        }
-        return {};
-    }
-
-  private:
-    bool concurrent_;
-};
-
-wire::View view_of(const volume::Index3& n, const view::ImageSize& size = {.width = 24, .height = 20}) {
-    wire::View view;
-    view.camera = view::camera_on({}, {.n = n, .spacing = {1, 1, 1}});
-    view.size = size;
-    view.tf = view::default_transfer_function();
-    return view;
-}
-
-image::Image<image::Rgba8> picture_of(const wire::Message& frame, const wire::View& view) {
-    auto picture = wire::picture_from(frame, view.size);
-    EXPECT_TRUE(picture);
-    return *std::move(picture);
-}
-
-std::vector<tree::Place> all_daemons(const support::Simulation& simulation) {
-    std::vector<tree::Place> places;
-    for (std::size_t i = 1; i < simulation.plan().nodes.size(); ++i) {
-        places.push_back(static_cast<tree::Place>(i));
-    }
-    return places;
-}
+using support::all_daemons;
+using support::picture_of;
+using support::view_of;
+using support::Waves;
 
 constexpr volume::Index3 small_cube{11, 9, 13};
 
@@ -250,85 +213,6 @@ TEST(Simulation, OtherLimitsEndAsIfTheyHadBeenThereFirst) {
         }
         EXPECT_TRUE(simulation.run_until([&] { return simulation.head().roster().all_ready(); }));
         EXPECT_EQ(simulation.pictures(), 0U) << "seed " << seed;
-    }
-}
-
-// Functions do for all heights of a pin: changing them asks renderers for none.
-TEST(Simulation, ChangingHeightsFindsNoFunctions) {
-    const volume::Index3 n{97, 97, 65};
-    Waves source(true);
-    support::Simulation simulation(3, *tree::full_tree(2, 2), n, source);
-    for (const tree::Place place : all_daemons(simulation)) {
-        simulation.start_daemon(place);
-    }
-    wire::View view = view_of(n);
-    view.level_of_detail = false;
-    view.camera = view::camera_on({.azimuth = 0, .elevation = 0}, {.n = n, .spacing = {1, 1, 1}},
-                                  view::Projection::parallel);
-    view.culling = {.kind = culling::Kind::opof};
-    // Culled bricks of the frame by a height.
-    const auto draw = [&](double height) {
-        view.tf.opacity_pins = {view::Flat{height}};
-        const std::uint64_t culled = simulation.culled_bricks();
-        const std::uint64_t revision = simulation.ask(view);
-        EXPECT_TRUE(simulation.run_until([&] { return simulation.answered_whole(revision); }));
-        simulation.fabric().pass_time(std::chrono::seconds(1));
-        simulation.run_until([] { return false; }, std::chrono::seconds(1));
-        return simulation.culled_bricks() - culled;
-    };
-    const int finds = 2 * 2;  // each renderer's, of blocks and of columns
-    for (int frame = 0; frame < 50 && (draw(0.5) == 0 || simulation.finds() < finds); ++frame) {
-    }
-    EXPECT_EQ(simulation.finds(), finds);
-    std::uint64_t most = 0;
-    for (const double height : {0.01, 0.2, 0.35, 0.65, 0.9, 0.99, 0.3, 1.0}) {
-        most = std::max(most, draw(height));
-    }
-    EXPECT_GT(most, 0U);
-    EXPECT_EQ(simulation.finds(), finds);
-}
-
-// Functions are found, lost with whoever carries them, and found again; whole pictures stay the same
-// throughout.
-TEST(Simulation, CullingOverAnyStormOfDeathsEndsWhole) {
-    const volume::Index3 n{97, 97, 65};
-    Waves source(true);
-    for (std::uint64_t seed = 0; seed < 2; ++seed) {
-        const tree::Topology topology = *tree::full_tree(2, 3);
-        support::Simulation simulation(seed, topology, n, source);
-        for (const tree::Place place : all_daemons(simulation)) {
-            simulation.start_daemon(place);
-        }
-        wire::View view = view_of(n);
-        view.level_of_detail = false;
-        view.camera = view::camera_on({.azimuth = 0, .elevation = 0}, {.n = n, .spacing = {1, 1, 1}},
-                                      view::Projection::parallel);
-        view.tf.opacity_pins = {view::Flat{0.8}};
-        std::uint64_t revision = simulation.ask(view);
-        ASSERT_TRUE(simulation.run_until([&] { return simulation.answered_whole(revision); })) << seed;
-        const auto expected = picture_of(*simulation.newest_frame(), view);
-        view.culling = {.kind = culling::Kind::opof};
-        std::mt19937_64& random = simulation.fabric().random();
-        const std::vector<tree::Place> places = all_daemons(simulation);
-        for (int death = 0; death < 4; ++death) {
-            simulation.ask(view);
-            simulation.run_some(static_cast<int>(random() % 400));
-            const tree::Place victim = places[random() % places.size()];
-            simulation.kill_daemon(victim);
-            simulation.run_some(static_cast<int>(random() % 50));
-            simulation.start_daemon(victim);
-        }
-        bool any = false;
-        for (int n_asked = 0; n_asked < 100 && !any; ++n_asked) {
-            const std::uint64_t culled = simulation.culled_bricks();
-            revision = simulation.ask(view);
-            ASSERT_TRUE(simulation.run_until([&] { return simulation.answered_whole(revision); })) << seed;
-            EXPECT_LE(support::difference(picture_of(*simulation.newest_frame(), view), expected).largest, 1)
-                << seed;
-            any = simulation.culled_bricks() > culled;
-            simulation.fabric().pass_time(std::chrono::seconds(20));
-        }
-        EXPECT_TRUE(any) << seed;
     }
 }
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "common/image/over_windows.h"
-#include "common/volume/interpolate.h"
 #include "common/volume/counting_source.h"
+#include "common/volume/interpolate.h"
 #include "common/volume/statistics.h"
 #include "protocol/wire/picture.h"
 #include "renderer/culling/culler.h"
@@ -159,11 +159,10 @@ struct Simulation::Renderer final : Simulation::Daemon {
             make_sketch(load->job, load->share, load->sketch_level);
             const auto& n = load->share.lattice.n;
             volume::CountingSource counting(sim.source_, load->share.box, n);
-            auto loaded =
-                shear::BrickVolume::load(counting, load->share.box, n, load->mapping, sim.workers_);
+            auto loaded = shear::BrickVolume::load(counting, load->share.box, n, load->mapping, sim.workers_);
             bricks = *std::move(loaded);
-            tell(leaf::Loaded{load->job, {},
-                              load->count ? std::optional(counting.histogram()) : std::nullopt});
+            tell(leaf::Loaded{
+                load->job, {}, load->count ? std::optional(counting.histogram()) : std::nullopt});
         } else if (const auto* ray = std::get_if<leaf::SampleRay>(&effect)) {
             wire::RayPart part{ray->number, {}, !bricks};
             if (bricks) {
@@ -171,6 +170,14 @@ struct Simulation::Renderer final : Simulation::Daemon {
                     *bricks, shear::OpacityTable(ray->tf, bricks->mapping().levels()), ray->ray);
             }
             tell(leaf::RaySampled{ray->job, std::move(part)});
+        } else if (const auto* learn = std::get_if<leaf::Learn>(&effect)) {
+            lookout.learn(learn->learn);
+            tell(leaf::Learned{learn->job});
+        } else if (const auto* forget = std::get_if<node::Forget>(&effect)) {
+            lookout.forget(*forget);
+        } else if (const auto* look = std::get_if<leaf::Look>(&effect)) {
+            ++sim.renderer_looks_;
+            tell(leaf::Looked{look->job, lookout.look(look->look, sim.workers_)});
         } else if (const auto* find = std::get_if<leaf::Find>(&effect); find != nullptr && bricks) {
             ++sim.finds_;
             for (const bool coarse : {true, false}) {
@@ -224,6 +231,7 @@ struct Simulation::Renderer final : Simulation::Daemon {
     Simulation& sim;
     int number;
     leaf::Leaf leaf;
+    node::Lookout lookout;
     std::optional<shear::BrickVolume> bricks;
     std::optional<shear::Sketch> sketch;
 };
@@ -270,13 +278,14 @@ head::Roster roster_for(const tree::Topology& topology, const volume::Index3& n,
 }  // namespace
 
 Simulation::Simulation(std::uint64_t seed, const tree::Topology& topology, const volume::Index3& n,
-                       volume::VoxelSource& source, int sketch_level)
+                       volume::VoxelSource& source, int sketch_level, head::Deciding deciding)
     : fabric_(seed),
       source_(source),
-      head_(roster_for(topology, n, sketch_level), {.range = {}, .percentile = 99.5}) {
+      head_(roster_for(topology, n, sketch_level), {.range = {}, .percentile = 99.5, .deciding = deciding}) {
     fabric_.add(server_node, [this](const wire::NetEvent& e) { perform(head_.handle(e, fabric_.now())); });
     fabric_.add(client_node, [this](const wire::NetEvent& e) { on_client_event(e); });
-    fabric_.perform(client_node, {wire::Dial{wire::LinkId{1}, wire::Address{"sim", server_node}, pb::ROLE_CLIENT}});
+    fabric_.perform(client_node,
+                    {wire::Dial{wire::LinkId{1}, wire::Address{"sim", server_node}, pb::ROLE_CLIENT}});
 }
 
 Simulation::~Simulation() = default;
@@ -310,12 +319,16 @@ void Simulation::perform(head::Effects effects) {
                 pictures_.lay(lay->merge, *lay->view, lay->camera, workers_);
             } else if (auto* finish = std::get_if<head::Finish>(&job)) {
                 this->finish(*finish);
-            } else if (const auto* look = std::get_if<head::Look>(&job)) {
+            } else if (const auto* look = std::get_if<node::Look>(&job)) {
+                ++head_looks_;
                 perform(head_.handle(lookout_.look(*look, workers_), fabric_.now()));
-            } else if (const auto* learn = std::get_if<head::Learn>(&job)) {
+            } else if (const auto* learn = std::get_if<node::Learn>(&job)) {
                 lookout_.learn(*learn);
-            } else if (const auto* forget = std::get_if<head::Forget>(&job)) {
+            } else if (const auto* forget = std::get_if<node::Forget>(&job)) {
                 lookout_.forget(*forget);
+            } else if (const auto* give = std::get_if<head::Give>(&job)) {
+                auto functions = lookout_.give(give->request, give->key, give->number, give->first_direction);
+                perform(head_.handle(head::Given{give->request, std::move(functions)}, fabric_.now()));
             } else if (const auto* measure = std::get_if<head::Measure>(&job)) {
                 const auto value =
                     volume::value_at(source_, measure->n, {measure->at.x, measure->at.y, measure->at.z});

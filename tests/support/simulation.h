@@ -14,11 +14,11 @@
 #include "common/tree/plan.h"
 #include "common/volume/source.h"
 #include "compositor/junction/junction.h"
+#include "protocol/node/lookout.h"
 #include "protocol/wire/convert_pick.h"
 #include "renderer/leaf/leaf.h"
 #include "renderer/shear/brick_volume.h"
 #include "server/head/head.h"
-#include "server/head/lookout.h"
 #include "server/head/pictures.h"
 
 namespace shearwater::support {
@@ -71,7 +71,8 @@ class Simulation {
   public:
     // A sketch of a level above 0 is made where the source is concurrent.
     Simulation(std::uint64_t seed, const tree::Topology& topology, const volume::Index3& n,
-               volume::VoxelSource& source, int sketch_level = 0);
+               volume::VoxelSource& source, int sketch_level = 0,
+               head::Deciding deciding = head::Deciding::automatic);
     ~Simulation();
 
     void start_daemon(tree::Place place);
@@ -94,6 +95,9 @@ class Simulation {
     bool answered(std::uint64_t revision) const;
     bool answered_whole(std::uint64_t revision) const;
 
+    // How often the head has looked so far what a picture shows, and a renderer what a part of it does.
+    int head_looks() const { return head_looks_; }
+    int renderer_looks() const { return renderer_looks_; }
     // How many functions renderers have been asked to find so far.
     int finds() const { return finds_; }
     // That renderers have left out of frames so far.
@@ -122,14 +126,14 @@ class Simulation {
     base::Workers workers_{1};
     head::Head head_;
     head::Pictures pictures_;
-    head::Lookout lookout_;
+    node::Lookout lookout_;
     std::map<tree::Place, std::unique_ptr<Daemon>> daemons_;
     std::uint64_t revision_ = 0;
     std::optional<wire::Message> frame_, sketch_;
     int frames_ = 0;
     std::uint64_t culled_bricks_ = 0;
     std::vector<wire::PickAnswer> picked_;
-    int finds_ = 0;
+    int finds_ = 0, head_looks_ = 0, renderer_looks_ = 0;
 };
 
 }  // namespace shearwater::support

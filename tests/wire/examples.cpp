@@ -1,5 +1,7 @@
 #include "tests/wire/examples.h"
 
+#include "protocol/wire/convert_look.h"
+
 namespace shearwater::wire::test {
 namespace {
 
@@ -204,6 +206,25 @@ pb::Functions functions() {
     return m;
 }
 
+pb::GiveFunctions give_functions() {
+    pb::GiveFunctions m;
+    m.set_request(21);
+    fill(*m.mutable_key(), to_wire(function_key()));
+    fill(*m.mutable_functions(), functions());
+    return m;
+}
+pb::Look look() {
+    return to_wire(LookRequest{.request = 22,
+                               .factorisation = factorisation(),
+                               .tf = transfer_function(),
+                               .settings = {culling::Kind::opof, 0.95},
+                               .functions = {6, 7},
+                               .places = {3, 4, 6}});
+}
+pb::Replied replied() {
+    return to_wire(Reply{22, true, std::string("\x05\x80\x00", 3)});
+}
+
 pb::CubeDescription cube_description() {
     pb::CubeDescription m;
     m.set_name("cube.fits");
@@ -305,7 +326,10 @@ std::vector<Message> examples() {
             message(pick()),
             message(picked()),
             message(probe()),
-            message(probed())};
+            message(probed()),
+            message(give_functions(), bytes({1, 2, 3, 4})),
+            message(look()),
+            message(replied())};
 }
 
 std::vector<Message> sketch_examples() {

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "common/image/canvas.h"
+#include "protocol/wire/convert_look.h"
 #include "tests/wire/examples.h"
 
 namespace shearwater::wire::test {
@@ -73,6 +74,18 @@ void convert(const Body& body) {
         // Whatever it says, a part has a byte for each of its blocks and directions.
         const auto from = functions_from(message(*functions, std::vector<std::byte>(4)));
         EXPECT_TRUE(!from || from->codes.size() == 4);
+    } else if (const auto* give = std::get_if<pb::GiveFunctions>(&body)) {
+        const auto from = given_functions_from(message(*give, std::vector<std::byte>(4)));
+        EXPECT_TRUE(!from || from->part.codes.size() == 4);
+    } else if (const auto* look = std::get_if<pb::Look>(&body)) {
+        if (const auto from = look_from(*look)) {
+            EXPECT_TRUE(view::validate(from->factorisation) && view::validate(from->tf));
+            EXPECT_TRUE(culling::validate(from->settings));
+        }
+    } else if (const auto* replied = std::get_if<pb::Replied>(&body)) {
+        if (const auto from = reply_from(*replied)) {
+            EXPECT_LE(from->visible.size(), most_blocks);
+        }
     } else if (const auto* pick = std::get_if<pb::Pick>(&body)) {
         if (const auto from = pick_from(*pick)) {
             EXPECT_TRUE(view::validate(from->camera, from->size));

@@ -57,6 +57,9 @@ const std::map<std::string, Expected, std::less<>> types{
     {"Windows", {39, mib, 1024 * mib}},
     {"WantFunctions", {40, 4 * mib, 0}},
     {"Functions", {41, mib, 16 * mib}},
+    {"GiveFunctions", {42, mib, 16 * mib}},
+    {"Look", {43, mib, 0}},
+    {"Replied", {44, 256 * kib, 0}},
     {"CubeDescription", {64, mib, 0}},
     {"TreeState", {65, 4 * mib, 0}},
     {"SetView", {66, mib, 0}},
@@ -123,7 +126,7 @@ TEST(Header, OfAnotherMagicVersionOrType) {
     for (const std::uint64_t version : {0, protocol_version + 1, 256, 65535}) {
         EXPECT_EQ(parse_header(header_of(version, 5, 0, 0)).error().reason, pb::REASON_BAD_VERSION);
     }
-    for (const std::uint64_t type : {0, 7, 15, 42, 69, 256, 65535}) {
+    for (const std::uint64_t type : {0, 7, 15, 45, 69, 256, 65535}) {
         EXPECT_EQ(parse_header(header_of(1, type, 0, 0)).error().reason, pb::REASON_BAD_TYPE);
     }
 }

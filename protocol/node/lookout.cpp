@@ -1,9 +1,9 @@
-#include "server/head/lookout.h"
+#include "protocol/node/lookout.h"
 
 #include <algorithm>
 #include <cstring>
 
-namespace shearwater::head {
+namespace shearwater::node {
 
 using culling::BlockGrid;
 using culling::DirectionGrid;
@@ -14,7 +14,7 @@ Lookout::Known& Lookout::known(const culling::FunctionKey& key) {
 }
 
 void Lookout::learn(const Learn& learn) {
-    const wire::FunctionPart part = wire::functions_from(learn.functions).value();
+    const wire::FunctionPart& part = learn.part;
     const BlockGrid grid(learn.n);
     const DirectionGrid directions(part.side);
     if (part.blocks != grid.blocks_of(learn.box)) {
@@ -45,8 +45,10 @@ void Lookout::learn(const Learn& learn) {
     for (const auto& [place, sub_volume] : of.parts) {
         parts.push_back(sub_volume);
     }
-    auto whole = std::make_shared<const culling::FunctionTable>(
-        culling::merged(grid, directions, learn.key.footprint, parts));
+    auto whole = parts.size() == 1 && parts[0].box == volume::whole(learn.n)
+                     ? parts[0].table
+                     : std::make_shared<const culling::FunctionTable>(
+                           culling::merged(grid, directions, learn.key.footprint, parts));
     const std::lock_guard lock(mutex_);
     if (!store_ || store_->grid() != grid) {
         store_.emplace(grid, directions);
@@ -62,16 +64,26 @@ void Lookout::forget(const Forget& forget) {
     }
 }
 
+std::optional<wire::Message> Lookout::give(std::uint64_t request, const culling::FunctionKey& key,
+                                           std::uint64_t number, int first_direction) {
+    const std::lock_guard lock(mutex_);
+    const culling::FunctionTable* const table = store_ ? store_->find(key) : nullptr;
+    return table != nullptr
+               ? std::optional(wire::give_functions(request, key, number, *table, first_direction))
+               : std::nullopt;
+}
+
 Looked Lookout::look(const Look& look, base::Workers& workers) {
     const std::lock_guard lock(mutex_);
     const BlockGrid grid(look.factorisation.lattice.n);
     if (!store_ || store_->grid() != grid) {
-        return {look.frame, {grid, culling::BlockSet(grid.size(), true)}};
+        return {look.number, {grid, culling::BlockSet(grid.size(), true)}};
     }
     const view::Vec3& spacing = look.factorisation.lattice.spacing;
     const std::vector<culling::BlockRates> rates = store_->rates(
         look.tf, look.settings.kind, look.factorisation.level(), std::min({spacing.x, spacing.y, spacing.z}));
-    return {look.frame, {grid, visible_blocks(look.factorisation, grid, rates, look.settings, workers)}};
+    return {look.number,
+            {grid, visible_blocks(look.factorisation, grid, rates, look.settings, workers, look.part)}};
 }
 
-}  // namespace shearwater::head
+}  // namespace shearwater::node
