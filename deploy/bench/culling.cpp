@@ -71,7 +71,7 @@ namespace {
 
 const std::vector<std::string>& table_names() {
     static const std::vector<std::string> names{"views", "functions", "frames", "family",
-                                                "pass",  "pass-many", "drag"};
+                                                "pass",  "pass-many", "shared", "drag"};
     return names;
 }
 
@@ -142,7 +142,7 @@ base::Result<bool> culling(const CullingFlags& flags) {
     }
     bool same = true;
     const bool of_cubes = flags.check > 0 || std::ranges::any_of(flags.tables, [](const std::string& table) {
-                              return table != "pass-many" && table != "drag";
+                              return table != "pass-many" && table != "shared" && table != "drag";
                           });
     for (const Case& drawn : *cases) {
         if (of_cubes) {
@@ -168,6 +168,13 @@ base::Result<bool> culling(const CullingFlags& flags) {
             return done.error();
         }
     }
+    if (flags.check == 0 && flags.shows("shared")) {
+        const auto done =
+            culling_shared(*view, flags.common.drawing.culling_threshold, flags.common.frames, *report);
+        if (!done) {
+            return done.error();
+        }
+    }
     if (auto closed = report->close(); !closed) {
         return closed.error();
     }
@@ -180,9 +187,9 @@ Run add_culling(CLI::App& app) {
     auto flags = std::make_shared<CullingFlags>();
     flags->common.drawing.lod = "off";
     flags->drawn.add_to(app);
-    app.add_option(
-           "--tables", flags->tables,
-           "what is measured, with commas between; pass-many: a cube of 2048^3 voxels; drag: by a tree")
+    app.add_option("--tables", flags->tables,
+                   "what is measured, with commas between; pass-many, shared: a cube of 2048^3 voxels; drag: "
+                   "by a tree")
         ->delimiter(',')
         ->check(CLI::IsMember(table_names()))
         ->capture_default_str();

@@ -61,6 +61,8 @@ void culling_pass(const CullingRun& run);
 // The same for a cube of 2048^3 voxels that has functions and nothing else, and either projection.
 base::Status culling_pass_of_many(const deploy::ViewOptions& view, double threshold, int frames,
                                   base::Workers& workers, Report& report);
+// The same shared over renderers, each of which looks at a part of the picture.
+base::Status culling_shared(const deploy::ViewOptions& view, double threshold, int frames, Report& report);
 // Pictures of a tree while a pin is dragged, with and without: none is to come later for it.
 base::Status culling_drag(const Case& drawn, const deploy::ViewOptions& view, double threshold, int frames,
                           int threads, Report& report);

@@ -1,9 +1,5 @@
-#include <random>
-
-#include "common/culling/function_store.h"
 #include "deploy/bench/culling.h"
-#include "deploy/bench/machine.h"
-#include "deploy/bench/options.h"
+#include "deploy/bench/many_blocks.h"
 #include "deploy/bench/workload.h"
 #include "deploy/progress_bar.h"
 
@@ -51,20 +47,6 @@ void add_times(Record& record, const PassTimes& times) {
         .number("min_ms", 1e3 * times.standing.least, 3);
 }
 
-// A cube of functions without voxels.
-constexpr std::int64_t many_edge = 2048;
-
-culling::FunctionTable made_up(const culling::BlockGrid& grid, const culling::DirectionGrid& directions,
-                               int codes) {
-    culling::FunctionTable table{.blocks = {{}, grid.counts()}, .side = directions.side(), .codes = {}};
-    table.codes.resize(grid.size() * static_cast<std::size_t>(directions.cells()));
-    std::mt19937 random(1);
-    for (std::uint8_t& code : table.codes) {
-        code = static_cast<std::uint8_t>((random() >> 8) % static_cast<unsigned>(codes));
-    }
-    return table;
-}
-
 }  // namespace
 
 void culling_pass(const CullingRun& run) {
@@ -87,58 +69,22 @@ void culling_pass(const CullingRun& run) {
 
 base::Status culling_pass_of_many(const deploy::ViewOptions& view, double threshold, int frames,
                                   base::Workers& workers, Report& report) {
-    const view::Lattice lattice{.n = {many_edge, many_edge, many_edge}, .spacing = {1, 1, 1}};
-    const culling::BlockGrid grid(lattice.n);
-    const culling::DirectionGrid directions(culling::DirectionGrid::default_side);
-    const auto bytes = grid.size() * static_cast<std::size_t>(directions.cells());
-    if (auto fits = check_memory("decide what is visible of " + cube_text(lattice.n), 3 * bytes); !fits) {
+    if (auto fits = ManyBlocks::check_memory(); !fits) {
         return fits;
     }
-    // Of two bases, both made up as one.
-    const view::TransferFunction one{
-        .opacity_pins = {view::Hat{0.25, 0, 0.5, 1}}, .colour_pins = {{0, {1, 1, 1}}}, .background = {}};
-    view::TransferFunction two = one;
-    two.opacity_pins.push_back(view::Hat{0.75, 0, 0.5, 1});
-    report.table("pass-many", "Deciding what is visible, opof: " + cube_text(lattice.n) + ", " +
-                                  std::to_string(grid.size()) + " blocks with codes at random");
-    struct Codes {
-        const char* name;
-        int count;
-        const view::TransferFunction& tf;
-    };
-    // As dense as they come, and so thin that every ray goes through.
-    for (const Codes& codes : {Codes{"dense", 256, one}, Codes{"thin", 64, one}, Codes{"of two", 64, two}}) {
-        culling::FunctionStore store(grid, directions);
-        const auto table = std::make_shared<culling::FunctionTable>(made_up(grid, directions, codes.count));
-        for (const culling::Member& member : culling::members_of(codes.tf)) {
-            for (const culling::Footprint footprint : culling::footprints_of(culling::Kind::opof)) {
-                store.put({footprint, member.basis, 0}, table);
-            }
-        }
+    report.table("pass-many", "Deciding what is visible, opof: " + ManyBlocks::title());
+    for (const MadeUp& codes : made_up) {
+        ManyBlocks blocks(codes, view);
         for (const bool parallel : {false, true}) {
-            deploy::ViewOptions seen = first_view(many_edge);
-            seen.size = view.size;
-            seen.quality = view.quality;
-            seen.drawing.lod = "off";
-            seen.parallel = parallel;
             const PassTimes times = times_of(
-                frames,
-                [&](int n) {
-                    deploy::ViewOptions turned = seen;
-                    turned.orbit.azimuth += n * Path::turn;
-                    return view::factorise(*turned.camera(lattice), *turned.image_size(), lattice,
-                                           turned.sampling());
-                },
-                [&](const view::Factorisation& f) {
-                    return culling::visible_blocks(f, grid, store.rates(codes.tf, culling::Kind::opof, 0, 1),
-                                                   {culling::Kind::opof, threshold}, workers);
-                });
+                frames, [&](int n) { return blocks.factorisation(n, parallel); },
+                [&](const view::Factorisation& f) { return blocks.visible(f, threshold, workers); });
             Record record;
             record.text("codes", codes.name)
                 .text("view", parallel ? "parallel" : "perspective", 11)
                 .aside("image", view.size)
                 .count("threads", static_cast<std::uint64_t>(workers.threads()))
-                .count("blocks", grid.size());
+                .count("blocks", blocks.size());
             add_times(record, times);
             report.add(record);
         }

@@ -80,10 +80,12 @@ Parsed<culling::FunctionKey> function_key_from(const pb::FunctionKey& key) {
 
 std::string bits_of(const culling::BlockSet& blocks) {
     std::string bits((blocks.size() + 7) / 8, 0);
-    for (std::size_t block = 0; block < blocks.size(); ++block) {
-        if (blocks.contains(block)) {
-            bits[block / 8] = static_cast<char>(bits[block / 8] | 1 << block % 8);
+    for (std::size_t n = 0; n < bits.size(); ++n) {
+        unsigned byte = 0;
+        for (std::size_t block = 8 * n; block < std::min(8 * n + 8, blocks.size()); ++block) {
+            byte |= unsigned{blocks.contains(block)} << block % 8;
         }
+        bits[n] = static_cast<char>(byte);
     }
     return bits;
 }

@@ -302,6 +302,40 @@ TEST_F(BranchTest, FaultyMessagesEndTheChildsLinkByName) {
     EXPECT_EQ(of<wire::CloseLink>(effects_)[0].reason, pb::REASON_BAD_TYPE);
 }
 
+TEST_F(BranchTest, RepliesArePutTogetherOnceAllAreThere) {
+    pb::Look look;
+    look.set_request(5);
+    branch_.ask(5, wire::message(look), start, effects_);
+    EXPECT_EQ(of<wire::Send>(effects_).size(), 2U);
+    branch_.receive(right_, wire::message(wire::to_wire(wire::Reply{5, false, "\x01"})), effects_);
+    EXPECT_TRUE(branch_.take_replies().empty());
+    branch_.receive(left_, wire::message(wire::to_wire(wire::Reply{5, false, "\x04"})), effects_);
+    const auto replies = branch_.take_replies();
+    ASSERT_EQ(replies.size(), 1U);
+    EXPECT_EQ(replies[0].request, 5U);
+    EXPECT_EQ(replies[0].visible, "\x05");
+    EXPECT_FALSE(replies[0].incomplete);
+}
+
+TEST_F(BranchTest, RepliesOfThoseWhoAreGoneAreLacking) {
+    const auto incomplete = [&] {
+        const auto replies = branch_.take_replies();
+        EXPECT_EQ(replies.size(), 1U);
+        return !replies.empty() && replies[0].incomplete;
+    };
+    branch_.ask(5, wire::message(pb::Look()), start, effects_);
+    branch_.receive(right_, wire::message(wire::to_wire(wire::Reply{5})), effects_);
+    branch_.tick(start + Branch::reply_patience + 1ms);
+    EXPECT_TRUE(incomplete()) << "silent";
+    branch_.ask(6, wire::message(pb::Look()), start, effects_);
+    branch_.receive(right_, wire::message(wire::to_wire(wire::Reply{6})), effects_);
+    branch_.link_down(left_);
+    EXPECT_TRUE(incomplete()) << "gone since";
+    branch_.ask(7, wire::message(pb::Look()), start, effects_);
+    branch_.receive(right_, wire::message(wire::to_wire(wire::Reply{7})), effects_);
+    EXPECT_TRUE(incomplete()) << "gone before";
+}
+
 TEST_F(BranchTest, StrangersAreNotAdopted) {
     EXPECT_EQ(branch_.adopt(LinkId{200}, adopt(5), effects_), -1);
     EXPECT_EQ(branch_.adopt(LinkId{201}, adopt(3, epoch + 1), effects_), -1);

@@ -126,6 +126,60 @@ TEST(Culling, PartsThatDoNotFitAreRefused) {
     EXPECT_TRUE(functions_from(empty).has_error());
 }
 
+TEST(Culling, TablesAreGivenInParts) {
+    for (const std::int64_t blocks : {std::int64_t{1}, std::int64_t{9000}}) {
+        const culling::FunctionTable whole = table(blocks, 36);
+        std::vector<std::byte> codes;
+        for (int next = 0; next < 648;) {
+            const Message message = give_functions(31, function_key(), 9, whole, next);
+            EXPECT_LE(message.payload_size(), most_given);
+            const GivenFunctions given = given_functions_from(message).value();
+            EXPECT_EQ(given.request, 31U);
+            EXPECT_EQ(given.key, function_key());
+            EXPECT_EQ(given.part.number, 9U);
+            EXPECT_EQ(given.part.blocks, whole.blocks);
+            ASSERT_EQ(given.part.first_direction, next);
+            next += given.part.directions;
+            codes.insert(codes.end(), given.part.codes.begin(), given.part.codes.end());
+        }
+        EXPECT_TRUE(std::ranges::equal(codes, std::as_bytes(std::span(whole.codes))));
+    }
+    // However many blocks there are, a direction at a time.
+    EXPECT_EQ(given_functions_from(give_functions(1, function_key(), 9, table(most_given + 1, 4), 7))
+                  .value()
+                  .part.directions,
+              1);
+}
+
+TEST(Culling, GivenPartsThatDoNotFitAreRefused) {
+    const Message good = give_functions(31, function_key(), 9, table(3, 4), 0);
+    EXPECT_TRUE(given_functions_from(good).has_value());
+    Message bad = good;
+    std::get<pb::GiveFunctions>(bad.body).mutable_key()->set_level(99);
+    EXPECT_TRUE(given_functions_from(bad).has_error());
+    bad = good;
+    std::get<pb::GiveFunctions>(bad.body).mutable_functions()->set_directions(7);
+    EXPECT_TRUE(given_functions_from(bad).has_error());
+    bad = good;
+    bad.payload = nullptr;
+    EXPECT_TRUE(given_functions_from(bad).has_error());
+}
+
+TEST(Culling, BitsAreOfAsManyBlocks) {
+    std::mt19937 random(3);
+    for (const std::size_t blocks : {1, 7, 8, 9, 64, 1001}) {
+        culling::BlockSet set(blocks);
+        for (std::uint8_t& in : set.bytes()) {
+            in = static_cast<std::uint8_t>(random() % 2);
+        }
+        const std::string bits = bits_of(set);
+        EXPECT_EQ(bits.size(), (blocks + 7) / 8);
+        EXPECT_EQ(blocks_from(bits, blocks), set);
+        EXPECT_FALSE(blocks_from(bits + '\1', blocks));
+        EXPECT_FALSE(blocks_from(std::string_view(bits).substr(1), blocks));
+    }
+}
+
 TEST(Culling, SettingsOutOfRangeAreRefused) {
     View view = view_request();
     view.culling = {culling::Kind::pof, 0.95};
