@@ -57,9 +57,12 @@ void draw_stages(const Desk& desk, const model::Stages& of, ImVec2 from, ImVec2 
     }
 }
 
+// Left out where there is no room for all of it.
 void figure(const std::string& words, float gap) {
-    text(theme::muted, words);
-    ImGui::SameLine(0, gap);
+    if (ImGui::CalcTextSize(words.c_str()).x <= ImGui::GetContentRegionAvail().x) {
+        text(theme::muted, words);
+        ImGui::SameLine(0, gap);
+    }
 }
 
 }  // namespace
@@ -87,7 +90,10 @@ void machine_tools(Desk& desk) {
         figure(bytes_text(*status.link_speed) + "/s link", gap);
     }
     if (frame->culled_bricks > 0) {
-        figure(fmt::format("{} of {} bricks hidden", frame->culled_bricks, frame->opaque_bricks), gap);
+        figure(fmt::format("{:.0f} % hidden",
+                           100.0 * static_cast<double>(frame->culled_bricks) /
+                               static_cast<double>(std::max<std::uint64_t>(frame->opaque_bricks, 1))),
+               gap);
     }
 }
 
