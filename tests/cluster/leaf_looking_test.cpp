@@ -11,8 +11,8 @@ namespace {
 
 namespace pb = wire::pb;
 
-constexpr view::Lattice lattice{.n = {70, 40, 33}, .spacing = {1, 1, 1}};
-const culling::BlockGrid grid(lattice.n);
+constexpr view::Lattice looked_lattice{.n = {70, 40, 33}, .spacing = {1, 1, 1}};
+const culling::BlockGrid looked_grid(looked_lattice.n);
 
 class LeafLookingTest : public testing::Test {
   protected:
@@ -22,9 +22,9 @@ class LeafLookingTest : public testing::Test {
         pb::Assign assign;
         assign.set_epoch(1);
         assign.set_place(4);
-        *assign.mutable_box() = wire::to_wire(volume::whole(lattice.n));
+        *assign.mutable_box() = wire::to_wire(volume::whole(looked_lattice.n));
         assign.mutable_cube()->set_path("/cube");
-        *assign.mutable_cube()->mutable_lattice() = wire::to_wire(lattice);
+        *assign.mutable_cube()->mutable_lattice() = wire::to_wire(looked_lattice);
         assign.set_bits(8);
         *assign.mutable_mapping() = wire::to_wire(volume::Mapping{.lo = 0, .hi = 5});
         take(leaf_.handle(wire::Received{dialled_, wire::message(assign)}, now_));
@@ -53,8 +53,9 @@ class LeafLookingTest : public testing::Test {
             culling::Footprint::column, {view::Hat{0.05 * static_cast<double>(number), 0, 0.1, 1}, {}}, 0};
     }
     static culling::FunctionTable table(int side = culling::DirectionGrid::default_side) {
-        culling::FunctionTable table{.blocks = {{}, grid.counts()}, .side = side, .codes = {}};
-        table.codes.resize(grid.size() * static_cast<std::size_t>(culling::DirectionGrid(side).cells()), 7);
+        culling::FunctionTable table{.blocks = {{}, looked_grid.counts()}, .side = side, .codes = {}};
+        table.codes.resize(
+            looked_grid.size() * static_cast<std::size_t>(culling::DirectionGrid(side).cells()), 7);
         return table;
     }
     void give(std::uint64_t request, std::uint64_t number) {
@@ -62,7 +63,7 @@ class LeafLookingTest : public testing::Test {
     }
     void look(std::uint64_t request, std::vector<std::uint64_t> functions,
               std::vector<int> places = {2, 4, 9}) {
-        const auto f = view::factorise(view::camera_on({}, lattice), {20, 20}, lattice, {});
+        const auto f = view::factorise(view::camera_on({}, looked_lattice), {20, 20}, looked_lattice, {});
         receive(wire::message(wire::to_wire(wire::LookRequest{.request = request,
                                                               .factorisation = f,
                                                               .tf = view::default_transfer_function(),
@@ -126,13 +127,13 @@ TEST_F(LeafLookingTest, LooksAtItsPartByWhatItHasBeenGiven) {
     ASSERT_EQ(looks_.size(), 1U);
     EXPECT_EQ(looks_[0].look.part.part, 1);
     EXPECT_EQ(looks_[0].look.part.parts, 3);
-    culling::BlockSet seen(grid.size());
+    culling::BlockSet seen(looked_grid.size());
     seen.bytes()[3] = 1;
-    take(leaf_.handle(Looked{looks_[0].job, {12, {grid, seen}}}, now_));
+    take(leaf_.handle(Looked{looks_[0].job, {12, {looked_grid, seen}}}, now_));
     EXPECT_EQ(reply(2).request, 12U);
     EXPECT_FALSE(reply(2).incomplete);
-    EXPECT_EQ(wire::blocks_from(reply(2).visible, grid.size()), seen);
-    take(leaf_.handle(Looked{looks_[0].job, {12, {grid, seen}}}, now_));
+    EXPECT_EQ(wire::blocks_from(reply(2).visible, looked_grid.size()), seen);
+    take(leaf_.handle(Looked{looks_[0].job, {12, {looked_grid, seen}}}, now_));
     EXPECT_EQ(replies_.size(), 2U) << "once";
 }
 
@@ -178,7 +179,8 @@ TEST_F(LeafLookingTest, ForgetsWhatIsNoLongerWanted) {
     // A parent that comes back numbers anew.
     take(leaf_.handle(wire::LinkDown{parent_, pb::REASON_LOST, "gone"}, now_));
     EXPECT_EQ(forgotten_.size(), 2U);
-    take(leaf_.handle(Looked{looks_[0].job, {14, {grid, culling::BlockSet(grid.size())}}}, now_));
+    take(leaf_.handle(Looked{looks_[0].job, {14, {looked_grid, culling::BlockSet(looked_grid.size())}}},
+                      now_));
     EXPECT_EQ(replies_.size(), 1U) << "nobody waits for it";
 }
 

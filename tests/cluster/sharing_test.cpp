@@ -12,13 +12,13 @@ namespace {
 using namespace std::chrono_literals;
 using Numbers = std::vector<std::uint64_t>;
 
-const wire::Time begun = wire::Time{} + 1000s;
-constexpr int all = 648;
+const wire::Time given_at = wire::Time{} + 1000s;
+constexpr int every_direction = 648;
 
 // Gives what is next in pieces of so many directions, to renderers that take all. Its number, or 0.
 std::uint64_t give_one(Sharing& sharing, wire::Time now, int at_once = 400) {
     std::uint64_t number = 0;
-    for (int first = 0; first < all; first += at_once) {
+    for (int first = 0; first < every_direction; first += at_once) {
         const auto piece = sharing.take_piece(now);
         if (!piece) {
             return 0;
@@ -26,7 +26,7 @@ std::uint64_t give_one(Sharing& sharing, wire::Time now, int at_once = 400) {
         EXPECT_TRUE(number == 0 || number == piece->number);
         number = piece->number;
         EXPECT_EQ(piece->first_direction, first);
-        sharing.sent(piece->request, std::min(at_once, all - first), all, now);
+        sharing.sent(piece->request, std::min(at_once, every_direction - first), every_direction, now);
         EXPECT_FALSE(sharing.take_piece(now)) << "one at a time";
         EXPECT_FALSE(sharing.replied({piece->request}, now));
     }
@@ -36,49 +36,49 @@ std::uint64_t give_one(Sharing& sharing, wire::Time now, int at_once = 400) {
 TEST(Sharing, GivesWhatIsNeededPieceByPiece) {
     Sharing sharing;
     EXPECT_TRUE(sharing.given({}));
-    EXPECT_FALSE(sharing.take_piece(begun));
+    EXPECT_FALSE(sharing.take_piece(given_at));
     EXPECT_FALSE(sharing.given(Numbers{4, 7}));
     EXPECT_FALSE(sharing.given(Numbers{4, 7, 9})) << "asked for again, and more";
-    EXPECT_EQ(give_one(sharing, begun), 4U);
+    EXPECT_EQ(give_one(sharing, given_at), 4U);
     EXPECT_TRUE(sharing.given(Numbers{4}));
     EXPECT_FALSE(sharing.given(Numbers{4, 7}));
-    EXPECT_EQ(give_one(sharing, begun), 7U);
-    EXPECT_EQ(give_one(sharing, begun), 9U);
+    EXPECT_EQ(give_one(sharing, given_at), 7U);
+    EXPECT_EQ(give_one(sharing, given_at), 9U);
     EXPECT_TRUE(sharing.given(Numbers{4, 7, 9}));
-    EXPECT_FALSE(sharing.take_piece(begun));
+    EXPECT_FALSE(sharing.take_piece(given_at));
 }
 
 TEST(Sharing, GivesOnceMoreWhatSomebodyCouldNotTake) {
     Sharing sharing;
     sharing.given(Numbers{4});
-    const auto first = sharing.take_piece(begun);
-    sharing.sent(first->request, 400, all, begun);
-    sharing.replied({first->request, true}, begun);
+    const auto first = sharing.take_piece(given_at);
+    sharing.sent(first->request, 400, every_direction, given_at);
+    sharing.replied({first->request, true}, given_at);
     EXPECT_FALSE(sharing.given(Numbers{4}));
-    EXPECT_FALSE(sharing.take_piece(begun + Sharing::pause - 1ms));
-    EXPECT_EQ(give_one(sharing, begun + Sharing::pause), 4U) << "from the first piece on";
+    EXPECT_FALSE(sharing.take_piece(given_at + Sharing::pause - 1ms));
+    EXPECT_EQ(give_one(sharing, given_at + Sharing::pause), 4U) << "from the first piece on";
 }
 
 TEST(Sharing, GoesOnWithoutATableThatIsGone) {
     Sharing sharing;
     sharing.given(Numbers{4, 5});
-    const auto piece = sharing.take_piece(begun);
-    sharing.sent(piece->request, 0, 0, begun);
-    EXPECT_EQ(give_one(sharing, begun + Sharing::pause), 5U);
+    const auto piece = sharing.take_piece(given_at);
+    sharing.sent(piece->request, 0, 0, given_at);
+    EXPECT_EQ(give_one(sharing, given_at + Sharing::pause), 5U);
     EXPECT_FALSE(sharing.given(Numbers{4}));
 }
 
 TEST(Sharing, KeepsWhatIsWanted) {
     Sharing sharing;
     sharing.given(Numbers{4, 5, 6, 7});
-    give_one(sharing, begun);
-    give_one(sharing, begun);
-    const auto under_way = sharing.take_piece(begun);
+    give_one(sharing, given_at);
+    give_one(sharing, given_at);
+    const auto under_way = sharing.take_piece(given_at);
     ASSERT_EQ(under_way->number, 6U);
-    sharing.sent(under_way->request, all, all, begun);
+    sharing.sent(under_way->request, every_direction, every_direction, given_at);
     sharing.keep(Numbers{5});
-    sharing.replied({under_way->request}, begun);
-    EXPECT_FALSE(sharing.take_piece(begun)) << "neither what was under way nor what was to come";
+    sharing.replied({under_way->request}, given_at);
+    EXPECT_FALSE(sharing.take_piece(given_at)) << "neither what was under way nor what was to come";
     EXPECT_TRUE(sharing.given(Numbers{5}));
     EXPECT_FALSE(sharing.given(Numbers{4}));
     EXPECT_FALSE(sharing.given(Numbers{6}));
@@ -87,16 +87,16 @@ TEST(Sharing, KeepsWhatIsWanted) {
 TEST(Sharing, TellsLooksFromPieces) {
     Sharing sharing;
     sharing.given(Numbers{4});
-    give_one(sharing, begun);
+    give_one(sharing, given_at);
     sharing.given(Numbers{5});
     const std::uint64_t look = sharing.begin_look(31, {4});
-    const auto piece = sharing.take_piece(begun);
+    const auto piece = sharing.take_piece(given_at);
     const std::uint64_t other = sharing.begin_look(32, {4});
-    sharing.sent(piece->request, all, all, begun);
-    EXPECT_FALSE(sharing.replied({piece->request}, begun));
-    EXPECT_EQ(sharing.replied({other}, begun), 32U);
-    EXPECT_EQ(sharing.replied({look}, begun), 31U);
-    EXPECT_FALSE(sharing.replied({look}, begun)) << "once";
+    sharing.sent(piece->request, every_direction, every_direction, given_at);
+    EXPECT_FALSE(sharing.replied({piece->request}, given_at));
+    EXPECT_EQ(sharing.replied({other}, given_at), 32U);
+    EXPECT_EQ(sharing.replied({look}, given_at), 31U);
+    EXPECT_FALSE(sharing.replied({look}, given_at)) << "once";
     EXPECT_TRUE(sharing.given(Numbers{4, 5}));
 }
 
@@ -104,13 +104,13 @@ TEST(Sharing, TellsLooksFromPieces) {
 TEST(Sharing, GivesAnewWhatALookLacked) {
     Sharing sharing;
     sharing.given(Numbers{4, 5});
-    give_one(sharing, begun);
-    give_one(sharing, begun);
-    EXPECT_EQ(sharing.replied({sharing.begin_look(31, {4}), true}, begun), 31U) << "the frame goes on";
+    give_one(sharing, given_at);
+    give_one(sharing, given_at);
+    EXPECT_EQ(sharing.replied({sharing.begin_look(31, {4}), true}, given_at), 31U) << "the frame goes on";
     EXPECT_TRUE(sharing.given(Numbers{5}));
     EXPECT_FALSE(sharing.given(Numbers{4}));
-    EXPECT_FALSE(sharing.take_piece(begun + 1s));
-    EXPECT_EQ(give_one(sharing, begun + Sharing::pause), 4U);
+    EXPECT_FALSE(sharing.take_piece(given_at + 1s));
+    EXPECT_EQ(give_one(sharing, given_at + Sharing::pause), 4U);
 }
 
 }  // namespace

@@ -13,13 +13,14 @@
 namespace shearwater::culling {
 namespace {
 
-const view::Lattice lattice{.n = {300, 270, 410}, .spacing = {1, 1, 1}};
-const BlockGrid grid(lattice.n);
-const DirectionGrid directions(12);
-const view::TransferFunction tf{.opacity_pins = {view::Flat{0.7}}, .colour_pins = {{0, {1, 1, 1}}}};
-
 class ImageParts : public testing::Test {
   protected:
+    inline static const view::Lattice lattice{.n = {300, 270, 410}, .spacing = {1, 1, 1}};
+    inline static const BlockGrid grid{lattice.n};
+    inline static const DirectionGrid directions{12};
+    inline static const view::TransferFunction tf{.opacity_pins = {view::Flat{0.7}},
+                                                  .colour_pins = {{0, {1, 1, 1}}}};
+
     ImageParts() {
         for (const Footprint footprint : {Footprint::block, Footprint::column}) {
             FunctionTable table{.blocks = {{}, grid.counts()}, .side = directions.side(), .codes = {}};

@@ -9,7 +9,7 @@
 namespace shearwater::wire::test {
 namespace {
 
-LookRequest look() {
+LookRequest look_request() {
     return {.request = 8,
             .factorisation = factorisation(),
             .tf = transfer_function(),
@@ -19,18 +19,18 @@ LookRequest look() {
 }
 
 TEST(Look, ComesBack) {
-    const LookRequest back = look_from(to_wire(look())).value();
+    const LookRequest back = look_from(to_wire(look_request())).value();
     EXPECT_EQ(back.request, 8U);
-    EXPECT_EQ(back.factorisation, look().factorisation);
-    EXPECT_EQ(back.tf, look().tf);
-    EXPECT_EQ(back.settings, look().settings);
-    EXPECT_EQ(back.functions, look().functions);
-    EXPECT_EQ(back.places, look().places);
+    EXPECT_EQ(back.factorisation, look_request().factorisation);
+    EXPECT_EQ(back.tf, look_request().tf);
+    EXPECT_EQ(back.settings, look_request().settings);
+    EXPECT_EQ(back.functions, look_request().functions);
+    EXPECT_EQ(back.places, look_request().places);
 }
 
 TEST(Look, OfNothingIsRefused) {
     const auto refused = [](const auto& change) {
-        pb::Look bad = to_wire(look());
+        pb::Look bad = to_wire(look_request());
         change(bad);
         return look_from(bad).has_error();
     };
