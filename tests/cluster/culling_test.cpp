@@ -34,8 +34,9 @@ view::TransferFunction fog(double height) {
 
 class CullingTree : public testing::Test {
   protected:
-    void start(int branching, int levels, const std::string& by = "auto") {
-        ASSERT_TRUE(samples::write_sample("random", {114, 81, 85}, 3, path_));
+    void start(int branching, int levels, const volume::Index3& n = {114, 81, 85},
+               const std::string& by = "auto") {
+        ASSERT_TRUE(samples::write_sample("random", n, 3, path_));
         deploy::LocalTree::Options options;
         options.cube.path = path_;
         options.cube.range = {0, 1};
@@ -125,7 +126,7 @@ TEST_F(CullingTree, GoesOnOverADeathOfARenderer) {
 // Each renderer looks at a part of the picture, by functions of all blocks; one that comes back is given them
 // again.
 TEST_F(CullingTree, RenderersFindOutWhatIsHidden) {
-    start(2, 3, "renderers");
+    start(2, 3, {70, 41, 66}, "renderers");
     const wire::View view = view_at(*client_->lattice(), 10, fog(0.9));
     expect_left_out(view, true);
     ASSERT_EQ(kill(tree_->daemon_ids().back(), SIGKILL), 0);
