@@ -180,9 +180,9 @@ const Rect& FacePlan::inside(std::int64_t k) const {
     return inside_[slot(k) + 1];
 }
 
-// `steps(ray, i, j)`: how many slice distances a length of what a ray has of the cube stands for.
-template <class Steps>
-void FacePlan::scale(const Rect& pixels, const RayLengths& lengths, const Steps& steps) const {
+// `steps_of(j)(ray, i)`: how many slice distances a length of what a ray has of the cube stands for.
+template <class StepsOf>
+void FacePlan::scale(const Rect& pixels, const RayLengths& lengths, const StepsOf& steps_of) const {
     constexpr int most = 128;  // columns at a time
     std::array<Stretch, most> columns;
     for (int first = pixels.x0; first < pixels.x1; first += most) {
@@ -193,10 +193,11 @@ void FacePlan::scale(const Rect& pixels, const RayLengths& lengths, const Steps&
         for (int j = pixels.y0; j < pixels.y1; ++j) {
             const Stretch row = rows_[static_cast<std::size_t>(j - window_.y0)];
             float* const out = lengths.at(first, j);
+            const auto steps = steps_of(j);
             for (int n = 0; n < end - first; ++n) {
                 const Stretch& column = columns[static_cast<std::size_t>(n)];
                 const Stretch ray{std::max(row.from, column.from), std::min(row.to, column.to)};
-                out[n] *= static_cast<float>(steps(ray, first + n, j));
+                out[n] *= static_cast<float>(steps(ray, first + n));
             }
         }
     }
@@ -207,14 +208,21 @@ void FacePlan::apply_shares(std::int64_t k, const Rect& pixels, const RayLengths
     const double half = factorisation_.slice_pitch() / 2;
     const double steps_per_voxel = 1 / factorisation_.slice_pitch();  // a power of two
     const Rect below = inside(k - 1), above = inside(k + 1);
-    const auto contains = [](const Rect& rect, int i, int j) {
-        return rect.x0 <= i && i < rect.x1 && rect.y0 <= j && j < rect.y1;
+    // Of row j.
+    const auto columns = [](const Rect& rect, int j) {
+        return rect.y0 <= j && j < rect.y1 ? std::pair(rect.x0, rect.x1) : std::pair(0, 0);
     };
-    scale(pixels, lengths, [&](const Stretch& ray, int i, int j) {
-        // On the cube's first plane a ray is at its end, as all are.
-        const double from = contains(below, i, j) ? place - half : std::min(place, ray.from);
-        const double to = contains(above, i, j) ? place + half : std::max(place, ray.to);
-        return std::min((to - from) * steps_per_voxel, 2.0);
+    scale(pixels, lengths, [&](int j) {
+        const auto [below_first, below_end] = columns(below, j);
+        const auto [above_first, above_end] = columns(above, j);
+        return [=](const Stretch& ray, int i) {
+            // On the cube's first plane a ray is at its end, as all are.
+            const double start = std::min(place, ray.from), end = std::max(place, ray.to);
+            const bool has_below = (below_first <= i) & (i < below_end),
+                       has_above = (above_first <= i) & (i < above_end);
+            const double from = has_below ? place - half : start, to = has_above ? place + half : end;
+            return std::min((to - from) * steps_per_voxel, 2.0);
+        };
     });
 }
 
@@ -222,9 +230,11 @@ void FacePlan::apply_shares(std::int64_t k, const Rect& pixels, const RayLengths
 void FacePlan::apply_rims(std::int64_t k, int sign, const Rect& pixels, const RayLengths& lengths) const {
     const double place = factorisation_.slice_place(k);
     const double steps_per_voxel = 1 / factorisation_.slice_pitch();
-    scale(pixels, lengths, [&](const Stretch& ray, int, int) {
-        const double length = sign > 0 ? ray.to - place : place - ray.from;
-        return std::clamp(length * steps_per_voxel, 0.0, 1.0);
+    scale(pixels, lengths, [&](int) {
+        return [=](const Stretch& ray, int) {
+            const double length = sign > 0 ? ray.to - place : place - ray.from;
+            return std::clamp(length * steps_per_voxel, 0.0, 1.0);
+        };
     });
 }
 
