@@ -55,9 +55,8 @@ struct Tile {
 struct TileCells {
     static constexpr std::size_t group = 2;  // beams a side
 
-    std::vector<int> cells;
-    std::vector<std::size_t>
-        first_of;  // of each group, a row of them along u after the other, and of one more
+    std::vector<int> cells;             // of a group after the other, in rows along u
+    std::vector<std::size_t> first_of;  // of each group, and of one beyond the last
 
     // Of a beam of the tile.
     std::span<const int> of(const Tile& tile, std::size_t u, std::size_t v) const {

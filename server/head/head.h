@@ -29,7 +29,8 @@ namespace shearwater::head {
 // the functions of all blocks. Automatic: those, where they are on other machines and there are many blocks.
 enum class Deciding { automatic, by_server, by_renderers };
 
-// How values become codes: limits given, or cut from the histogram by percentile.
+// How values become codes, by limits given or cut from the histogram by percentile; and what else a server's
+// owner decides.
 struct Limits {
     std::optional<volume::Limits> range;
     double percentile = 99.5;
