@@ -34,10 +34,9 @@ struct Picture {
     std::vector<Seconds> each;  // of every time that it was drawn
     std::uint64_t samples = 0;
     std::uint64_t bricks_total = 0, bricks_empty = 0, bricks_culled = 0, bricks_rendered = 0;
-    std::string culling_by =
-        "nobody";  // who found out what is visible: the server, or renderers, or this process
-    std::uint64_t window_bytes = 0;  // up the tree, all links
-    std::uint64_t frame_bytes = 0;   // to the client
+    std::string culling_by = "nobody";  // who found out what is visible: server, renderers or process
+    std::uint64_t window_bytes = 0;     // up the tree, all links
+    std::uint64_t frame_bytes = 0;      // to the client
     std::vector<ProcessMemory> memory;
     std::string tree;
 };

@@ -19,6 +19,19 @@ class CullingSimulation : public testing::TestWithParam<head::Deciding> {
   protected:
     static bool shared() { return GetParam() == head::Deciding::by_renderers; }
 
+    static void start_all(support::Simulation& simulation) {
+        for (const tree::Place place : all_daemons(simulation)) {
+            simulation.start_daemon(place);
+        }
+    }
+    // Along an axis, so that blocks lie behind one another.
+    static wire::View from_the_front(const volume::Index3& n) {
+        wire::View view = view_of(n);
+        view.level_of_detail = false;
+        view.camera = view::camera_on({.azimuth = 0, .elevation = 0}, {.n = n, .spacing = {1, 1, 1}},
+                                      view::Projection::parallel);
+        return view;
+    }
     // Until a picture is looked at by renderers alone, if they are to.
     static void wait_for_sharing(const support::Simulation& simulation, const std::function<void()>& draw) {
         bool is_shared = false;
@@ -39,13 +52,8 @@ TEST_P(CullingSimulation, ChangingHeightsFindsNoFunctions) {
     const volume::Index3 n{97, 97, 65};
     Waves source(true);
     support::Simulation simulation(3, *tree::full_tree(2, 2), n, source, 0, GetParam());
-    for (const tree::Place place : all_daemons(simulation)) {
-        simulation.start_daemon(place);
-    }
-    wire::View view = view_of(n);
-    view.level_of_detail = false;
-    view.camera = view::camera_on({.azimuth = 0, .elevation = 0}, {.n = n, .spacing = {1, 1, 1}},
-                                  view::Projection::parallel);
+    start_all(simulation);
+    wire::View view = from_the_front(n);
     view.culling = {.kind = culling::Kind::opof};
     // Culled bricks of the frame by a height.
     const auto draw = [&](double height) {
@@ -82,13 +90,8 @@ TEST_P(CullingSimulation, OverAnyStormOfDeathsEndsWhole) {
     for (std::uint64_t seed = 0; seed < 2; ++seed) {
         const tree::Topology topology = *tree::full_tree(2, 3);
         support::Simulation simulation(seed, topology, n, source, 0, GetParam());
-        for (const tree::Place place : all_daemons(simulation)) {
-            simulation.start_daemon(place);
-        }
-        wire::View view = view_of(n);
-        view.level_of_detail = false;
-        view.camera = view::camera_on({.azimuth = 0, .elevation = 0}, {.n = n, .spacing = {1, 1, 1}},
-                                      view::Projection::parallel);
+        start_all(simulation);
+        wire::View view = from_the_front(n);
         view.tf.opacity_pins = {view::Flat{0.8}};
         std::uint64_t revision = simulation.ask(view);
         ASSERT_TRUE(simulation.run_until([&] { return simulation.answered_whole(revision); })) << seed;
