@@ -11,14 +11,21 @@ using view::Factorisation;
 namespace {
 
 // So many beams along a face's longer side for each block of the grid's longest, and at the least and the
-// most.
+// most. Grids of few blocks, which are soon passed, have more of them: there a block is a large share of all.
 constexpr std::int64_t beams_per_block = 4;
 constexpr std::int64_t least_beams = 80, most_beams = 112;
+constexpr std::int64_t beams_times_blocks = 1440, most_beams_of_few = 160;
 // Where samples are told from one another is rounded by less than this, in voxels.
 constexpr double slack = 1.0 / 64;
 
 Interval hull(const Interval& a, const Interval& b) {
     return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
+}
+
+// Of a grid with so many blocks along its longest side.
+std::int64_t beams_for(std::int64_t blocks) {
+    return std::max(std::clamp(beams_per_block * blocks, least_beams, most_beams),
+                    std::min(beams_times_blocks / blocks, most_beams_of_few));
 }
 
 }  // namespace
@@ -27,17 +34,14 @@ Beams::Beams(const Factorisation& factorisation, const Face& face, const BlockGr
     : f_(factorisation), face_(face), grid_(grid), step_(std::max(factorisation.slice_pitch(), 1.0)) {
     const volume::Box shown = factorisation.shown();
     for (std::size_t a = 0; a < 3; ++a) {
-        // Cells across the cube's end, of whichever size, are left out.
-        const std::int64_t cell = std::max<std::int64_t>(std::int64_t{1} << factorisation.level(), 4);
         const std::int64_t last = factorisation.lattice.n[a] - 1;
         begins_[a] = static_cast<double>(shown.lo[a]);
-        ends_[a] = static_cast<double>(std::min(last / cell * cell, shown.hi[a]));
+        ends_[a] = static_cast<double>(shown.hi[a]);
         const std::int64_t whole_end = shown.hi[a] == last ? grid.counts()[a] : shown.hi[a] / grid.edge();
         whole_[a] = {static_cast<std::int32_t>((shown.lo[a] + grid.edge() - 1) / grid.edge()),
                      static_cast<std::int32_t>(whole_end - 1)};
     }
-    const int beams = static_cast<int>(
-        std::clamp(beams_per_block * *std::ranges::max_element(grid.counts()), least_beams, most_beams));
+    const auto beams = static_cast<int>(beams_for(*std::ranges::max_element(grid.counts())));
     const int pixels = std::max((std::max(face.width, face.height) + beams - 1) / beams, 1);
     u_ = sides(face.u_axis(), face.origin.x, face.pitch.x, face.width, pixels);
     v_ = sides(face.v_axis(), face.origin.y, face.pitch.y, face.height, pixels);

@@ -18,7 +18,7 @@ namespace {
 // A sub-volume's part of a block.
 struct Part {
     const SubVolume* of;
-    Box cells;  // voxels of the cells that are wholly its own
+    Box cells;  // voxels of the cells that are wholly its own, or cut off by the cube's end
     std::size_t index;
 
     double rate(std::size_t direction) const {
@@ -42,8 +42,9 @@ std::vector<Part> parts_of(const Index3& at, const Box& block, const std::vector
             meets = meets && blocks.lo[a] <= at[a] && at[a] < blocks.hi[a];
             offset[a] = at[a] - blocks.lo[a];
             part.cells.lo[a] = up(std::max(block.lo[a], sub_volume.box.lo[a]), sub_volume.cell);
-            part.cells.hi[a] =
-                std::min(block.hi[a], sub_volume.box.hi[a]) / sub_volume.cell * sub_volume.cell;
+            part.cells.hi[a] = sub_volume.box.hi[a] >= block.hi[a]
+                                   ? up(block.hi[a], sub_volume.cell)
+                                   : sub_volume.box.hi[a] / sub_volume.cell * sub_volume.cell;
             meets = meets && part.cells.lo[a] < part.cells.hi[a];
         }
         if (meets) {
@@ -55,11 +56,11 @@ std::vector<Part> parts_of(const Index3& at, const Box& block, const std::vector
     return parts;
 }
 
-// As far as cells of a size go.
+// All that cells of a size are in, one across the cube's end as if it were whole.
 Box rounded(const Box& block, std::int64_t cell) {
     Box box = block;
     for (std::int64_t& hi : box.hi) {
-        hi = hi / cell * cell;
+        hi = up(hi, cell);
     }
     return box;
 }

@@ -21,9 +21,10 @@ namespace shearwater::wire {
 constexpr std::size_t header_bytes = 20;
 // 1 sent windows whole, pixel by pixel; 2 their spans; 3 sent them band by band; 4 knows opacity functions
 // and frames of visible blocks only; 5 knows pairs of pictures, crop boxes, points picked and how values lie;
-// 6 lets renderers say what is visible. Nothing else has changed.
-constexpr std::uint16_t protocol_version = 6;
-constexpr std::uint16_t oldest_version = 6;  // that an open link may have
+// 6 lets renderers say what is visible; by 7 functions are of cells that the cube's end cuts off, too.
+// Nothing else has changed.
+constexpr std::uint16_t protocol_version = 7;
+constexpr std::uint16_t oldest_version = 7;  // that an open link may have
 // Challenge, Hello, Welcome and the goodbyes before a Welcome keep the form of this version for ever, so that
 // any two versions can find out what both speak.
 constexpr std::uint16_t handshake_version = 1;

@@ -23,7 +23,7 @@
 namespace shearwater::cache {
 
 // Rises with every change of the format, or of what functions are.
-inline constexpr std::uint32_t version = 1;
+inline constexpr std::uint32_t version = 2;
 
 // A cube as it was when it was opened.
 struct Origin {

@@ -11,7 +11,9 @@ BlockCells::BlockCells(const Cells& cells, const volume::Box& box) {
     base::check(cells.box.contains(box), "a block's cells are the sub-volume's");
     for (int axis = 0; axis < 3; ++axis) {
         base::check(0 < box.cells(axis) && box.cells(axis) <= max_edge, "a block has 1 to 32 cells a side");
-        counts[static_cast<std::size_t>(axis)] = static_cast<int>(box.cells(axis));
+        const auto a = static_cast<std::size_t>(axis);
+        counts[a] = static_cast<int>(box.cells(axis));
+        whole[a] = static_cast<int>(std::min(box.hi[a], cells.whole(a)) - box.lo[a]);
     }
     const auto length = static_cast<std::size_t>(counts[0]);
     units.resize(length * static_cast<std::size_t>(counts[1]) * static_cast<std::size_t>(counts[2]));

@@ -14,6 +14,7 @@ struct BlockCells {
     static constexpr int max_edge = 32;
 
     std::array<int, 3> counts{};      // along each axis
+    std::array<int, 3> whole{};       // of them, those that the cube's end does not cut off
     std::vector<std::int16_t> units;  // axis 0 fastest
     std::int16_t least = 0, greatest = 0;
 

@@ -13,8 +13,9 @@ namespace {
 Cells of(const shear::BrickVolume& volume, std::int64_t voxels) {
     Cells cells{.box = {}, .known = {}, .n = volume.cube(), .voxels = voxels, .row = {}};
     for (std::size_t a = 0; a < 3; ++a) {
+        const std::int64_t end = volume.box().hi[a];
         cells.box.lo[a] = (volume.box().lo[a] + voxels - 1) / voxels;
-        cells.box.hi[a] = std::max(volume.box().hi[a] / voxels, cells.box.lo[a]);
+        cells.box.hi[a] = std::max(end == cells.n[a] - 1 ? cells.count(a) : end / voxels, cells.box.lo[a]);
     }
     cells.known = cells.box;
     return cells;
@@ -24,7 +25,8 @@ Cells of(const shear::BrickVolume& volume, std::int64_t voxels) {
 void reach_out(Cells& cells, const shear::Halo& halo, std::int64_t to_octant) {
     for (std::size_t a = 0; a < 3; ++a) {
         cells.known.lo[a] = std::min(cells.box.lo[a], halo.octants().lo[a] * to_octant);
-        cells.known.hi[a] = std::max(cells.box.hi[a], halo.octants().hi[a] * to_octant);
+        cells.known.hi[a] =
+            std::max(cells.box.hi[a], std::min(halo.octants().hi[a] * to_octant, cells.count(a)));
     }
 }
 

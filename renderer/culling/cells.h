@@ -3,9 +3,9 @@
 // rays may meet in it. They lie between the nodes of a level, or, for a first and coarser answer, are its
 // octants, whose codes are known without a look at the nodes.
 //
-// On a coarse level they are its own, between nodes 2^level voxels apart. Those that no one sub-volume has
-// wholly, across its faces or the cube's end, are known to none: whoever asks counts them as clear, and asks
-// nothing of lines that pass beyond the last whole ones of the cube (common/culling/visible_blocks.cpp).
+// On a coarse level they are its own, between nodes 2^level voxels apart. Those across a sub-volume's faces
+// are known to none: whoever asks counts them as clear. One across the cube's end is cut off there, and is of
+// the sub-volume that has what is left of it.
 
 #include <cstdint>
 #include <functional>
@@ -21,7 +21,11 @@ struct Cells {
     volume::Box box;      // that are wholly the sub-volume's
     volume::Box known;    // and those around that something is known of
     volume::Index3 n;     // voxels of the whole cube
-    std::int64_t voxels;  // along a cell's side
+    std::int64_t voxels;  // along a cell's side, where the cube does not end before
+    // The cube's along an axis; the last may be cut off,
+    std::int64_t count(std::size_t axis) const { return (n[axis] - 1 + voxels - 1) / voxels; }
+    // and then is not among these.
+    std::int64_t whole(std::size_t axis) const { return (n[axis] - 1) / voxels; }
     // Extinctions in units of the known cells of a row along axis 0 from one on.
     std::function<void(const volume::Index3& first, std::span<std::int16_t> units)> row;
 };

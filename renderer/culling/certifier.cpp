@@ -60,14 +60,14 @@ int first_certain_of(const Layers& cells, const Sheaf& sheaf, const std::int16_t
         const bool inner = k > 0 && k < sheaf.layers - 1;
         // Bundles surely inside along u.
         const int sure0 = -u.first - sheaf.bundles_u.first;
-        const int sure1 = cells.counts_u - u.last - sheaf.bundles_u.first;
+        const int sure1 = cells.whole_u - u.last - sheaf.bundles_u.first;
         for (int j = 0; j < rows; ++j) {
             const int y0 = j + sheaf.bundles_v.first + v.first, y1 = j + sheaf.bundles_v.first + v.last;
             const int v0 = std::max(y0, 0), v1 = std::min(y1, cells.counts_v - 1);
             if (v0 > v1) {
                 continue;
             }
-            const bool sure_row = inner && v0 == y0 && v1 == y1;
+            const bool sure_row = inner && v0 == y0 && y1 < cells.whole_v;
             for (int i = 0; i < bundles; i += lanes) {
                 const std::int16_t* at = room.eroded + v0 * room.length + i;
                 auto least = hn::LoadU(d, at);

@@ -122,20 +122,19 @@ class Strip {
     // No line is looked at that leaves the cube by its sides: what is beyond counts for nothing.
     void leave_out(std::int64_t around) {
         constexpr std::uint16_t none = 65535;
-        const auto cells = [&](std::size_t axis) { return (task_.cells.n[axis] - 1) / task_.cells.voxels; };
         const Range u{task_.cells.known.lo[u_] - around, task_.cells.known.hi[u_] + around};
         for (std::int64_t w = layers_.lo; w < layers_.hi; ++w) {
             for (std::int64_t v = rows_.lo - around; v < rows_.hi + around; ++v) {
                 std::uint16_t* const row = &units_[offset(u.lo, v, w)];
-                if (v < 0 || v >= cells(v_)) {
+                if (v < 0 || v >= task_.cells.count(v_)) {
                     std::fill(row, row + (u.hi - u.lo), none);
                     continue;
                 }
                 if (u.lo < 0) {
                     std::fill(row, row - u.lo, none);
                 }
-                if (u.hi > cells(u_)) {
-                    std::fill(row + (cells(u_) - u.lo), row + (u.hi - u.lo), none);
+                if (const std::int64_t end = task_.cells.count(u_); u.hi > end) {
+                    std::fill(row + (end - u.lo), row + (u.hi - u.lo), none);
                 }
             }
         }
@@ -155,18 +154,19 @@ class Strip {
         steps[v_] = row_;
         steps[w_] = layer_;
         // A ray's first sample at the cube's end may stand for half a step, and so its last.
-        const auto at_end = [&](std::size_t axis, std::int64_t cell) {
-            return axis == w_ && (cell == 0 || cell == (task_.cells.n[axis] - 1) / task_.cells.voxels - 1);
+        const std::int64_t voxels = task_.cells.voxels, last = task_.cells.count(w_) - 1;
+        const std::int64_t voxels_of_last = task_.cells.n[w_] - 1 - last * voxels;
+        const auto counted = [&](const Index3& at, std::int64_t units) {
+            return at[w_] == last ? units * voxels_of_last / (2 * voxels) : at[w_] == 0 ? units / 2 : units;
         };
         for (std::int64_t z = box.lo[2]; z < box.hi[2]; ++z) {
             for (std::int64_t y = box.lo[1]; y < box.hi[1]; ++y) {
                 task_.cells.row({box.lo[0], y, z}, row);
                 Index3 first{box.lo[0], y, z};
                 std::uint16_t* to = &units_[offset(first[u_], first[v_], first[w_])];
-                const bool row_at_end = at_end(1, y) || at_end(2, z);
                 for (std::int64_t x = box.lo[0]; x < box.hi[0]; ++x, to += steps[0]) {
                     const std::int16_t units = row[static_cast<std::size_t>(x - box.lo[0])];
-                    *to = static_cast<std::uint16_t>(row_at_end || at_end(0, x) ? units / 2 : units);
+                    *to = static_cast<std::uint16_t>(counted({x, y, z}, units));
                     clear_ = clear_ && units == 0;
                 }
             }

@@ -40,6 +40,8 @@ Layers::Layers(const BlockCells& cells, int axis) {
                w = static_cast<std::size_t>(axis);
     counts_u = cells.counts[u];
     counts_v = cells.counts[v];
+    whole_u = cells.whole[u];
+    whole_v = cells.whole[v];
     units.reserve(cells.units.size());
     for (std::size_t k = 0; k < static_cast<std::size_t>(cells.counts[w]); ++k) {
         for (std::size_t j = 0; j < static_cast<std::size_t>(counts_v); ++j) {
@@ -67,8 +69,8 @@ int first_certain_by_definition(const Layers& cells, const Sheaf& sheaf,
                     if (u0 > u1 || v0 > v1) {
                         continue;
                     }
-                    const bool sure = u0 == i + u.first && u1 == i + u.last && v0 == j + v.first &&
-                                      v1 == j + v.last && k > 0 && k < sheaf.layers - 1;
+                    const bool sure = u0 == i + u.first && i + u.last < cells.whole_u && v0 == j + v.first &&
+                                      j + v.last < cells.whole_v && k > 0 && k < sheaf.layers - 1;
                     int least = most_units;
                     for (int y = v0; y <= v1; ++y) {
                         for (int x = u0; x <= u1; ++x) {

@@ -6,7 +6,8 @@
 //
 //   layer 0    [. .|. . .]. .        from i + u[0].first to i + u[0].last along u, and likewise along v;
 //   middle     . . .[.]. . . .       some of which may be outside the block. A bundle wholly inside has a
-//   last       . . .[. . .|. .]      sample there on every line, one partly inside perhaps.
+//   last       . . .[. . .|. .]      sample there on every line, one partly inside perhaps, and one in a cell
+//                                    that the cube's end cuts off.
 
 #include <array>
 #include <cstdint>
@@ -32,6 +33,7 @@ struct Sheaf {
 // + u].
 struct Layers {
     int counts_u, counts_v;
+    int whole_u, whole_v;  // of them, from the first on
     std::vector<std::int16_t> units;
 
     Layers(const BlockCells& cells, int axis);

@@ -6,14 +6,18 @@ namespace shearwater::shear {
 
 using volume::Box;
 
-Halo::Halo(const Box& box, const Box& passing) {
+Halo::Halo(const Box& box, const Box& passing, const volume::Index3& n) {
+    // Octants before an end; one that the cube's end cuts off is as good as whole.
+    const auto before = [&](std::int64_t end, std::size_t a) {
+        return end == n[a] - 1 ? (end + octant - 1) / octant : end / octant;
+    };
     bool around = false;
     std::int64_t count = 1;
     for (std::size_t a = 0; a < 3; ++a) {
         own_.lo[a] = (box.lo[a] + octant - 1) / octant;
-        own_.hi[a] = std::max(box.hi[a] / octant, own_.lo[a]);
+        own_.hi[a] = std::max(before(box.hi[a], a), own_.lo[a]);
         octants_.lo[a] = std::max(own_.lo[a] - width, (passing.lo[a] + octant - 1) / octant);
-        octants_.hi[a] = std::max(std::min(own_.hi[a] + width, passing.hi[a] / octant), octants_.lo[a]);
+        octants_.hi[a] = std::max(std::min(own_.hi[a] + width, before(passing.hi[a], a)), octants_.lo[a]);
         around = around || octants_.lo[a] < own_.lo[a] || octants_.hi[a] > own_.hi[a];
         count *= octants_.hi[a] - octants_.lo[a];
     }
@@ -55,9 +59,11 @@ void Halo::add_row(const CodeVolume& voxels, std::int64_t z, std::int64_t octant
             }
         }
         OctantRange& range = ranges_[index({x, octant_y, octant_z})];
-        for (std::int64_t y = octant_y * octant; y <= (octant_y + 1) * octant; ++y) {
+        const std::int64_t last_x = std::min((x + 1) * octant, voxels.box().hi[0]);
+        const std::int64_t last_y = std::min((octant_y + 1) * octant, voxels.box().hi[1]);
+        for (std::int64_t y = octant_y * octant; y <= last_y; ++y) {
             const Code* const row = &voxels.codes<Code>()[voxels.offset({x * octant, y, z})];
-            for (std::int64_t i = 0; i <= octant; ++i) {
+            for (std::int64_t i = 0; i <= last_x - x * octant; ++i) {
                 // A valid code of 16 bits may begin with 0: it counts as blank, which is as safe.
                 const auto lead = static_cast<std::uint8_t>(row[i] >> (8 * (sizeof(Code) - 1)));
                 range.min = std::min(range.min, lead);

@@ -17,8 +17,8 @@ class Halo {
     static constexpr std::int64_t width = 5;  // octants
 
     Halo() = default;
-    // Of a box of a cube, as far as the voxels go that pass.
-    Halo(const volume::Box& box, const volume::Box& passing);
+    // Of a box of a cube of n voxels, as far as the voxels go that pass.
+    Halo(const volume::Box& box, const volume::Box& passing, const volume::Index3& n);
 
     // Takes in the planes [first, end) of voxels, all that pass; in their order.
     void add(const CodeVolume& voxels, std::int64_t first, std::int64_t end, base::Workers& workers);

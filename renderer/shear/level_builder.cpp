@@ -36,7 +36,7 @@ LevelBuilder::LevelBuilder(const Box& box, const Index3& n, int bits, std::int64
         levels_.emplace_back(volume::nodes_kept(box, level++, n), bits);
         passing = room / 2 + 1;
     }
-    halo_ = Halo(box, flows_.front().nodes);
+    halo_ = Halo(box, flows_.front().nodes, n);
 }
 
 std::optional<Box> LevelBuilder::next() const {

@@ -120,9 +120,13 @@ struct Block {
         return (depth(to) - depth(from)) / (to - from) * (front > 0 && back > 0 ? 1 : 0.5) *
                std::numbers::ln2;
     }
+    // What of its cells the cube has.
     bool owns(const std::array<double, 3>& p) const {
         for (std::size_t a = 0; a < 3; ++a) {
-            if (p[a] < static_cast<double>(box.lo[a]) || p[a] >= static_cast<double>(box.hi[a])) {
+            const double cube_end =
+                static_cast<double>(volume.cube()[a] - 1) / static_cast<double>(1 << level);
+            if (p[a] < static_cast<double>(box.lo[a]) ||
+                p[a] >= std::min(static_cast<double>(box.hi[a]), cube_end)) {
                 return false;
             }
         }

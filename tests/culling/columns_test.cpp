@@ -19,10 +19,11 @@ using volume::Box;
 using volume::Index3;
 
 // What a line gathers between a block's planes along an axis, in depth along the distance of two nodes:
-// samples on planes 1 / per_cell apart, or the segments between those. What lies within a node of the cube's
-// ends counts half.
+// samples on planes 1 / per_cell apart, or the segments between those. At the cube's ends one counts for what
+// it stands for in the cube (shear/face_plan.h).
 double depth_along(const Block& block, const Box& between, int axis, double u, double v,
-                   const std::array<double, 3>& through, int per_cell, bool segments, const Index3& last) {
+                   const std::array<double, 3>& through, int per_cell, bool segments,
+                   const std::array<double, 3>& last) {
     const auto w = static_cast<std::size_t>(axis);
     const auto on_plane = [&](std::int64_t k) {
         std::array<double, 3> p = through;
@@ -36,12 +37,12 @@ double depth_along(const Block& block, const Box& between, int axis, double u, d
         const std::array<double, 3> p = on_plane(k), q = on_plane(k + 1);
         bool inside = true;
         for (std::size_t a = 0; a < 3; ++a) {
-            inside = inside && 0 <= p[a] && p[a] < static_cast<double>(last[a]);
+            inside = inside && 0 <= p[a] && p[a] < last[a];
         }
-        const bool at_end = p[w] < 1 || p[w] >= static_cast<double>(last[w] - 1);
         if (inside) {
-            depth +=
-                (segments ? block.extinction(p, q) : block.extinction(p)) * (at_end ? 0.5 : 1) / per_cell;
+            const double half = 0.5 / per_cell;
+            depth += (segments ? block.extinction(p, q) : block.extinction(p)) *
+                     (std::min(half, p[w]) + std::min(half, last[w] - p[w]));
         }
     }
     return depth;
@@ -49,13 +50,13 @@ double depth_along(const Block& block, const Box& between, int axis, double u, d
 
 // Whether a line is inside the cube's sides from a node before a block's planes to one behind.
 bool stays_inside(const Box& between, int axis, double u, double v, const std::array<double, 3>& through,
-                  const Index3& ends) {
+                  const std::array<double, 3>& ends) {
     const auto w = static_cast<std::size_t>(axis);
     for (const std::int64_t plane : {between.lo[w] - 1, between.hi[w] + 1}) {
         const double far = static_cast<double>(plane) - through[w];
         for (const auto& [a, slope] : {std::pair{(w + 1) % 3, u}, {(w + 2) % 3, v}}) {
             const double at = through[a] + slope * far;
-            if (at < 0 || at >= static_cast<double>(ends[a])) {
+            if (at < 0 || at >= ends[a]) {
                 return false;
             }
         }
@@ -79,11 +80,10 @@ void expect_below_every_line(const shear::BrickVolume& whole, const shear::Brick
     const std::int64_t node = std::int64_t{1} << lines.level;
     const std::int64_t cell = lines.octants ? 4 : node;
     const Index3 n = volume.cube();
-    Index3 last, ends;  // functions are of whole octants
+    const Index3 last = volume::last_nodes(n, lines.level);
+    std::array<double, 3> ends;  // the cube's, where cells may be cut off
     for (std::size_t a = 0; a < 3; ++a) {
-        last[a] = (n[a] - 1) / node;
-        const std::int64_t octant = std::max<std::int64_t>(node, 4);
-        ends[a] = (n[a] - 1) / octant * octant / node;
+        ends[a] = static_cast<double>(n[a] - 1) / static_cast<double>(node);
     }
     const BlockGrid grid(n);
     const DirectionGrid directions(lines.side);
@@ -112,11 +112,14 @@ void expect_below_every_line(const shear::BrickVolume& whole, const shear::Brick
             block.lo[a] = at[a] * grid.edge() / node;
             block.hi[a] = std::min(block.lo[a] + grid.edge() / node, last[a]);
             // Only where the sub-volume has it.
-            const std::int64_t lo =
-                std::max(block.lo[a], (volume.box().lo[a] + cell - 1) / cell * cell / node);
-            const std::int64_t hi = std::min(block.hi[a], volume.box().hi[a] / cell * cell / node);
+            const auto lo = static_cast<double>(
+                std::max(block.lo[a], (volume.box().lo[a] + cell - 1) / cell * cell / node));
+            const std::int64_t end = volume.box().hi[a];
+            const double of_whole = static_cast<double>(end / cell * cell / node);
+            const double hi =
+                std::min(static_cast<double>(block.hi[a]), end == n[a] - 1 ? ends[a] : of_whole);
             any = any && (lo < hi || a == w);
-            through[a] = static_cast<double>(lo) + share(random) * static_cast<double>(hi - lo);
+            through[a] = lo + share(random) * (hi - lo);
         }
         if (!any) {
             continue;
@@ -138,7 +141,7 @@ void expect_below_every_line(const shear::BrickVolume& whole, const shear::Brick
             continue;
         }
         for (const auto& [per_cell, segments] : {std::pair{1, false}, {2, false}, {1, true}, {2, true}}) {
-            const double depth = depth_along(all, block, axis, u, v, through, per_cell, segments, last);
+            const double depth = depth_along(all, block, axis, u, v, through, per_cell, segments, ends);
             EXPECT_GE(depth * static_cast<double>(node) * (1 + 1e-6),
                       all.least_of(code) * static_cast<double>(grid.box(at).cells(axis)))
                 << axis << ": " << u << ", " << v << " by " << per_cell << (segments ? " segments" : "");
@@ -171,7 +174,7 @@ TEST(ColumnFunctions, AreBelowEveryLine) {
     expect_below_every_line(volume, volume, ramp(0.1, 0.01, 0.9, 0.5), {36, 3000, 78, true});
 }
 
-// Also of coarser levels, whose cells across a sub-volume's faces, or the cube's, nobody tells of.
+// Also of coarser levels, whose cells across a sub-volume's faces nobody tells of.
 TEST(ColumnFunctions, AreBelowEveryLineOnCoarseLevels) {
     base::Workers workers(2);
     const Index3 n{150, 131, 139};

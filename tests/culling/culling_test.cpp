@@ -96,8 +96,8 @@ TEST(Culling, OfAllDirectionsChangesNoPicture) {
     expect_no_difference(waves, {3, 4, {.kind = Kind::opof, .threshold = 0.95}, 0.05});
 }
 
-// Where nothing is hidden, rays end at the threshold all the same: what lies behind is taken to be as what they
-// have, which is wrong by no more than it weighs.
+// Where nothing is hidden, rays end at the threshold all the same: what lies behind is taken to be as what
+// they have, which is wrong by no more than it weighs.
 TEST(Culling, EndsRays) {
     base::Workers workers(2);
     test::FloatCube noise = test::noise_cube({70, 60, 50});

@@ -114,6 +114,22 @@ TEST(OpacityFunction, IsBelowEveryLineInNarrowCells) {
     expect_below_every_line(Block(nearly_even, step(0.5, 0.02, 0.3), {{0, 0, 0}, {32, 32, 32}}), 36, 3000, 8);
 }
 
+// Lines that leave the cube within a cell have no sample in the rest of it.
+TEST(OpacityFunction, IsBelowEveryLineWhereTheCubeEndsWithinACell) {
+    base::Workers workers(1);
+    test::FloatCube noise = test::noise_cube({72, 72, 72});
+    test::FloatCube waves = shells({72, 72, 72});
+    unsigned seed = 50;
+    for (test::FloatCube* cube : {&noise, &waves}) {
+        const auto volume = test::bricks_of(*cube, workers);
+        for (const Box& box : {Box{{16, 16, 16}, {36, 36, 36}}, Box{{0, 32, 16}, {16, 36, 32}}}) {
+            const Block block(volume, ramp(0.3, 0, 0.6, 0.9), box, 1);
+            EXPECT_EQ(block.cells().whole[1], block.cells().counts[1] - 1);
+            expect_below_every_line(block, 12, 3000, ++seed);
+        }
+    }
+}
+
 // Of a homogeneous block it is what the block has, in every direction.
 TEST(OpacityFunction, IsExactForAHomogeneousBlock) {
     base::Workers workers(1);
@@ -165,6 +181,15 @@ TEST(LeastExtinctions, AreBelowSamplesAndSegments) {
     }
 }
 
+std::int16_t greatest_by_definition(const Layers& layers, const Sheaf& sheaf) {
+    int certain = 0, uncertain = most_units + 1;
+    while (uncertain - certain > 1) {
+        const std::array tried{static_cast<std::int16_t>((certain + uncertain) / 2)};
+        (first_certain_by_definition(layers, sheaf, tried) == 0 ? certain : uncertain) = tried[0];
+    }
+    return static_cast<std::int16_t>(certain);
+}
+
 TEST(Certifier, IsItsDefinition) {
     base::Workers workers(1);
     std::mt19937 random(3);
@@ -174,20 +199,29 @@ TEST(Certifier, IsItsDefinition) {
         test::FloatCube cube = test::noise_cube({counts[0] + 1, counts[1] + 1, counts[2] + 1});
         const auto volume = test::bricks_of(cube, workers);
         const Block block(volume, ramp(0.1, 0, 0.9, 0.3), volume.box());
-        const BlockCells cells = block.cells();
+        BlockCells cells = block.cells();
+        for (std::int16_t& units : cells.units) {
+            units = static_cast<std::int16_t>(200 + random() % 1000);
+        }
         for (int n = 0; n < 40; ++n) {
+            for (std::size_t a = 0; a < 3; ++a) {
+                cells.whole[a] = cells.counts[a] - static_cast<int>(random() % 2);
+            }
             const int cell = static_cast<int>(random() % static_cast<unsigned>(grid.cells()));
             for (int axis = 0; axis < 3; ++axis) {
                 if (const auto slopes = grid.slopes(cell, axis)) {
                     const Layers layers(cells, axis);
                     const Sheaf sheaf(axis, *slopes, cells.counts);
-                    const auto top = static_cast<std::int16_t>(random() % 400);
+                    const auto top = static_cast<std::int16_t>(200 + random() % 400);
                     std::vector<std::int16_t> tried;
                     for (int i = 0; i < 1 + n % 4; ++i) {
                         tried.push_back(static_cast<std::int16_t>(top * (4 - i) / 4));
                     }
                     ASSERT_EQ(certifier.first_certain(layers, sheaf, tried),
                               first_certain_by_definition(layers, sheaf, tried));
+                    const std::int16_t greatest = greatest_by_definition(layers, sheaf);
+                    const std::array at_the_edge{static_cast<std::int16_t>(greatest + 1), greatest};
+                    ASSERT_EQ(certifier.first_certain(layers, sheaf, at_the_edge), 1);
                 }
             }
         }
