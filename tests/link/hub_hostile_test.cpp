@@ -280,8 +280,8 @@ TEST_F(HostileListener, ClosesAtOnce) {
 TEST_F(HostileListener, SpeaksOnlyVersionsToCome) {
     Raw raw = dialled();
     wire::pb::Challenge challenge = challenge_with(random_nonce());
-    challenge.set_version_min(7);
-    challenge.set_version_max(9);
+    challenge.set_version_min(wire::protocol_version + 1);
+    challenge.set_version_max(wire::protocol_version + 3);
     raw.write(wire::message(challenge));
     expect_down(wire::pb::REASON_BAD_VERSION);
     EXPECT_EQ(raw.next<wire::pb::Goodbye>().value().reason(), wire::pb::REASON_BAD_VERSION);
