@@ -100,8 +100,8 @@ class InOrder {
 // A band of a face, as far as the sub-volume reaches.
 struct Part {
     std::size_t band;
-    Rect rect;  // turned, as tiles are
-    int across;
+    Rect rect;                // turned, as tiles are
+    int across, rows;         // tiles beside one another; lines of each, but for the last
     std::int64_t first_tile;  // of the face's
     std::atomic<std::int64_t> tiles_left;
     std::once_flag begun;
@@ -130,7 +130,11 @@ class FaceRenderer {
         part.band = band;
         part.rect = rect;
         part.across = (rect.width() + Tile<Code>::width - 1) / Tile<Code>::width;
-        const int down = (rect.height() + tile_rows_ - 1) / tile_rows_;
+        constexpr int step = image::LitBlocks::block;
+        const int wanted = std::max((rect.height() + tile_rows_ / 2) / tile_rows_, 1);
+        part.rows =
+            std::min((rect.height() + wanted - 1) / wanted + step - 1, Tile<Code>::height) / step * step;
+        const int down = (rect.height() + part.rows - 1) / part.rows;
         part.first_tile = tiles_;
         part.tiles_left = std::int64_t{part.across} * down;
         part.window.face = cut.face;
@@ -150,12 +154,12 @@ class FaceRenderer {
         Part& part = *std::prev(after);
         const int x =
             part.rect.x0 + static_cast<int>((n - part.first_tile) % part.across) * Tile<Code>::width;
-        const int y = part.rect.y0 + static_cast<int>((n - part.first_tile) / part.across) * tile_rows_;
+        const int y = part.rect.y0 + static_cast<int>((n - part.first_tile) / part.across) * part.rows;
         Tile<Code>& tile = tiles_of_threads_.mine([this] {
             return std::make_unique<Tile<Code>>(frame_.volume, frame_.classification, frame_.contents,
                                                 pieces_, plan_, frame_.met);
         });
-        const Rect rect = intersection(part.rect, {x, y, x + Tile<Code>::width, y + tile_rows_});
+        const Rect rect = intersection(part.rect, {x, y, x + Tile<Code>::width, y + part.rows});
         if (tile.render(rect)) {
             std::call_once(part.begun, [&] {
                 const Rect all = plan_.turn(part.rect);
