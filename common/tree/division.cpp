@@ -1,6 +1,7 @@
 #include "common/tree/division.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -8,9 +9,18 @@
 
 namespace shearwater::tree {
 
+namespace {
+
+int axis_to_cut(const volume::Box& box) {
+    constexpr std::array by_preference{1, 2, 0};
+    return *std::ranges::max_element(by_preference, {}, [&](int axis) { return box.cells(axis); });
+}
+
+}  // namespace
+
 base::Result<std::vector<volume::Box>> divide(const volume::Box& box, std::span<const double> weights) {
     base::check(!weights.empty(), "a division has at least one part");
-    const int axis = box.longest_axis();
+    const int axis = axis_to_cut(box);
     const std::int64_t cells = box.cells(axis);
     const auto parts = static_cast<std::int64_t>(weights.size());
     if (cells < parts) {

@@ -16,7 +16,7 @@ bool Box::contains(const Box& inner) const {
 int Box::longest_axis() const {
     int longest = 0;
     for (int axis = 1; axis < 3; ++axis) {
-        if (cells(axis) >= cells(longest)) {
+        if (cells(axis) > cells(longest)) {
             longest = axis;
         }
     }

@@ -41,6 +41,19 @@ TEST(Division, HalvesTheLongestAxisAtASharedPlane) {
     EXPECT_EQ((*boxes)[1], (Box{{0, 4, 0}, {4, 8, 4}}));
 }
 
+TEST(Division, CutsRowsLastWhereAllAxesAreAsLong) {
+    Box left = volume::whole({65, 65, 65});
+    for (const int axis : {1, 2, 0}) {
+        const auto boxes = divide(left, equal(2));
+        ASSERT_TRUE(boxes);
+        expect_tiling(left, *boxes, axis);
+        left = boxes->front();
+    }
+    const auto rows = divide(volume::whole({66, 65, 65}), equal(2));
+    ASSERT_TRUE(rows);
+    expect_tiling(volume::whole({66, 65, 65}), *rows, 0);
+}
+
 TEST(Division, SharesOddSizesWithinACell) {
     for (const std::int64_t n : {7, 11, 13, 97, 101, 1009}) {
         for (const int parts : {2, 3, 5}) {

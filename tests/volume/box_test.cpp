@@ -20,9 +20,9 @@ TEST(Box, ContainsItselfAndItsPartsOnly) {
     EXPECT_FALSE(box.contains({{0, 0, 0}, {9, 9, 10}}));
 }
 
-TEST(Box, LongestAxisIsTheHighestOfEquals) {
-    EXPECT_EQ((Box{{0, 0, 0}, {5, 5, 5}}).longest_axis(), 2);
-    EXPECT_EQ((Box{{0, 0, 0}, {5, 5, 4}}).longest_axis(), 1);
+TEST(Box, LongestAxisIsTheLowestOfEquals) {
+    EXPECT_EQ((Box{{0, 0, 0}, {5, 5, 5}}).longest_axis(), 0);
+    EXPECT_EQ((Box{{0, 0, 0}, {4, 5, 5}}).longest_axis(), 1);
     EXPECT_EQ((Box{{9, 0, 0}, {10, 5, 6}}).longest_axis(), 2);
 }
 
