@@ -18,6 +18,7 @@ class BlockGrid {
     // Over a cube of n voxels; an edge is 16 or 32 voxels.
     explicit BlockGrid(const volume::Index3& n, std::int64_t edge = default_edge);
 
+    const volume::Index3& voxels() const { return n_; }  // of the cube
     std::int64_t edge() const { return edge_; }
     const volume::Index3& counts() const { return counts_; }
     std::size_t size() const { return static_cast<std::size_t>(counts_[0] * counts_[1] * counts_[2]); }

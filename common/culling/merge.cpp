@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/culling/rates.h"
+#include "common/volume/cell_grid.h"
 
 namespace shearwater::culling {
 
@@ -18,7 +19,7 @@ namespace {
 // A sub-volume's part of a block.
 struct Part {
     const SubVolume* of;
-    Box cells;  // voxels of the cells that are wholly its own, or cut off by the cube's end
+    Box known;  // voxels of its cells there
     std::size_t index;
 
     double rate(std::size_t direction) const {
@@ -26,26 +27,23 @@ struct Part {
     }
 };
 
-std::int64_t up(std::int64_t voxel, std::int64_t cell) {
-    return (voxel + cell - 1) / cell * cell;
-}
-
 // Those that a block has, with what of the block they say nothing about left out.
-std::vector<Part> parts_of(const Index3& at, const Box& block, const std::vector<SubVolume>& all) {
+std::vector<Part> parts_of(const BlockGrid& grid, const Index3& at, const std::vector<SubVolume>& all) {
+    const Box block = grid.box(at);
     std::vector<Part> parts;
     for (const SubVolume& sub_volume : all) {
         const Box& blocks = sub_volume.table->blocks;
+        const std::int64_t edge = sub_volume.cell;
+        const Box cells = volume::CellGrid{grid.voxels(), edge}.within(sub_volume.box);
         Part part{&sub_volume, {}, 0};
         bool meets = true;
         Index3 offset;
         for (std::size_t a = 0; a < 3; ++a) {
             meets = meets && blocks.lo[a] <= at[a] && at[a] < blocks.hi[a];
             offset[a] = at[a] - blocks.lo[a];
-            part.cells.lo[a] = up(std::max(block.lo[a], sub_volume.box.lo[a]), sub_volume.cell);
-            part.cells.hi[a] = sub_volume.box.hi[a] >= block.hi[a]
-                                   ? up(block.hi[a], sub_volume.cell)
-                                   : sub_volume.box.hi[a] / sub_volume.cell * sub_volume.cell;
-            meets = meets && part.cells.lo[a] < part.cells.hi[a];
+            part.known.lo[a] = std::max(block.lo[a], cells.lo[a] * edge);
+            part.known.hi[a] = std::min(block.hi[a], cells.hi[a] * edge);
+            meets = meets && part.known.lo[a] < part.known.hi[a];
         }
         if (meets) {
             part.index = static_cast<std::size_t>(
@@ -56,25 +54,16 @@ std::vector<Part> parts_of(const Index3& at, const Box& block, const std::vector
     return parts;
 }
 
-// All that cells of a size are in, one across the cube's end as if it were whole.
-Box rounded(const Box& block, std::int64_t cell) {
-    Box box = block;
-    for (std::int64_t& hi : box.hi) {
-        hi = up(hi, cell);
-    }
-    return box;
-}
-
 // Of lines along an axis: the least over all columns of the most that is said of one.
 double least_of_columns(const std::vector<Part>& parts, const Box& block, std::size_t axis,
                         std::size_t direction) {
     const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
     std::vector<std::int64_t> u_edges{block.lo[u]}, v_edges{block.lo[v]};
     for (const Part& part : parts) {
-        for (const std::int64_t edge : {part.cells.lo[u], part.cells.hi[u]}) {
+        for (const std::int64_t edge : {part.known.lo[u], part.known.hi[u]}) {
             u_edges.push_back(edge);
         }
-        for (const std::int64_t edge : {part.cells.lo[v], part.cells.hi[v]}) {
+        for (const std::int64_t edge : {part.known.lo[v], part.known.hi[v]}) {
             v_edges.push_back(edge);
         }
     }
@@ -86,8 +75,8 @@ double least_of_columns(const std::vector<Part>& parts, const Box& block, std::s
             }
             double most = 0;
             for (const Part& part : parts) {
-                const bool has = part.cells.lo[u] <= at_u && at_u < part.cells.hi[u] &&
-                                 part.cells.lo[v] <= at_v && at_v < part.cells.hi[v];
+                const bool has = part.known.lo[u] <= at_u && at_u < part.known.hi[u] &&
+                                 part.known.lo[v] <= at_v && at_v < part.known.hi[v];
                 most = std::max(most, has ? part.rate(direction) : 0);
             }
             least = std::min(least, most);
@@ -106,16 +95,14 @@ FunctionTable merged(const BlockGrid& grid, const DirectionGrid& directions, Foo
     table.codes.assign(grid.size() * sides, 0);
     for (std::size_t index = 0; index < grid.size(); ++index) {
         const Index3 at = grid.at(index);
-        const Box box = grid.box(at);
-        const std::vector<Part> parts = parts_of(at, box, sub_volumes);
+        const Box block = grid.box(at);
+        const std::vector<Part> parts = parts_of(grid, at, sub_volumes);
         if (parts.empty()) {
             continue;
         }
-        const std::int64_t cell = parts[0].of->cell;
-        const Box block = rounded(box, cell);
         std::int64_t said = 0;
         for (const Part& part : parts) {
-            said += part.cells.cells(0) * part.cells.cells(1) * part.cells.cells(2);
+            said += part.known.cells(0) * part.known.cells(1) * part.known.cells(2);
         }
         const bool all_said = said == block.cells(0) * block.cells(1) * block.cells(2);
         for (std::size_t direction = 0; direction < sides; ++direction) {

@@ -13,16 +13,6 @@ bool Box::contains(const Box& inner) const {
     return true;
 }
 
-int Box::longest_axis() const {
-    int longest = 0;
-    for (int axis = 1; axis < 3; ++axis) {
-        if (cells(axis) > cells(longest)) {
-            longest = axis;
-        }
-    }
-    return longest;
-}
-
 Box whole(const Index3& n) {
     return {{0, 0, 0}, {n[0] - 1, n[1] - 1, n[2] - 1}};
 }

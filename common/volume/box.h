@@ -25,7 +25,6 @@ struct Box {
     Index3 plane_counts() const { return {planes(0), planes(1), planes(2)}; }
     std::int64_t voxels() const { return planes(0) * planes(1) * planes(2); }
     bool contains(const Box& inner) const;
-    int longest_axis() const;  // by cells; the lowest axis of equals
 };
 
 // The region between the first and last voxel centre of a cube of n voxels.

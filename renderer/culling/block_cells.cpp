@@ -13,7 +13,7 @@ BlockCells::BlockCells(const Cells& cells, const volume::Box& box) {
         base::check(0 < box.cells(axis) && box.cells(axis) <= max_edge, "a block has 1 to 32 cells a side");
         const auto a = static_cast<std::size_t>(axis);
         counts[a] = static_cast<int>(box.cells(axis));
-        whole[a] = static_cast<int>(std::min(box.hi[a], cells.whole(a)) - box.lo[a]);
+        whole[a] = static_cast<int>(std::min(box.hi[a], cells.grid.count_uncut(a)) - box.lo[a]);
     }
     const auto length = static_cast<std::size_t>(counts[0]);
     units.resize(length * static_cast<std::size_t>(counts[1]) * static_cast<std::size_t>(counts[2]));

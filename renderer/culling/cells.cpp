@@ -9,16 +9,10 @@ using volume::Index3;
 
 namespace {
 
-// Of so many voxels a side: those that a box owns all of, since what lies across a cut is counted by neither.
-Cells of(const shear::BrickVolume& volume, std::int64_t voxels) {
-    Cells cells{.box = {}, .known = {}, .n = volume.cube(), .voxels = voxels, .row = {}};
-    for (std::size_t a = 0; a < 3; ++a) {
-        const std::int64_t end = volume.box().hi[a];
-        cells.box.lo[a] = (volume.box().lo[a] + voxels - 1) / voxels;
-        cells.box.hi[a] = std::max(end == cells.n[a] - 1 ? cells.count(a) : end / voxels, cells.box.lo[a]);
-    }
-    cells.known = cells.box;
-    return cells;
+Cells of(const shear::BrickVolume& volume, std::int64_t edge) {
+    const volume::CellGrid grid{volume.cube(), edge};
+    const Box own = grid.within(volume.box());
+    return {.grid = grid, .box = own, .known = own, .row = {}};
 }
 
 // The halo's cells of so many to an octant's side.
@@ -26,7 +20,7 @@ void reach_out(Cells& cells, const shear::Halo& halo, std::int64_t to_octant) {
     for (std::size_t a = 0; a < 3; ++a) {
         cells.known.lo[a] = std::min(cells.box.lo[a], halo.octants().lo[a] * to_octant);
         cells.known.hi[a] =
-            std::max(cells.box.hi[a], std::min(halo.octants().hi[a] * to_octant, cells.count(a)));
+            std::max(cells.box.hi[a], std::min(halo.octants().hi[a] * to_octant, cells.grid.count(a)));
     }
 }
 

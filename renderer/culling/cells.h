@@ -11,21 +11,16 @@
 #include <functional>
 #include <span>
 
-#include "common/volume/box.h"
+#include "common/volume/cell_grid.h"
 #include "renderer/culling/least_extinctions.h"
 #include "renderer/shear/brick_volume.h"
 
 namespace shearwater::culling {
 
 struct Cells {
-    volume::Box box;      // that are wholly the sub-volume's
-    volume::Box known;    // and those around that something is known of
-    volume::Index3 n;     // voxels of the whole cube
-    std::int64_t voxels;  // along a cell's side, where the cube does not end before
-    // The cube's along an axis; the last may be cut off,
-    std::int64_t count(std::size_t axis) const { return (n[axis] - 1 + voxels - 1) / voxels; }
-    // and then is not among these.
-    std::int64_t whole(std::size_t axis) const { return (n[axis] - 1) / voxels; }
+    volume::CellGrid grid;
+    volume::Box box;    // those that are the sub-volume's
+    volume::Box known;  // and those around that something is known of
     // Extinctions in units of the known cells of a row along axis 0 from one on.
     std::function<void(const volume::Index3& first, std::span<std::int16_t> units)> row;
 };

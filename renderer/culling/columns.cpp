@@ -114,8 +114,8 @@ class Strip {
     // Were all layers of the block there.
     std::uint8_t code_of(const ColumnCells& cells, const ColumnSheaf& sheaf) const {
         const double depth = least_depth(cells, sheaf) * value_unit;
-        const std::int64_t voxels = task_.cells.voxels, first = block_w_ * task_.edge * voxels;
-        const std::int64_t all = std::min(task_.edge * voxels, task_.cells.n[w_] - 1 - first);
+        const std::int64_t voxels = task_.cells.grid.edge, first = block_w_ * task_.edge * voxels;
+        const std::int64_t all = std::min(task_.edge * voxels, task_.cells.grid.n[w_] - 1 - first);
         return code_below(depth * static_cast<double>(voxels) / static_cast<double>(all));
     }
 
@@ -126,14 +126,14 @@ class Strip {
         for (std::int64_t w = layers_.lo; w < layers_.hi; ++w) {
             for (std::int64_t v = rows_.lo - around; v < rows_.hi + around; ++v) {
                 std::uint16_t* const row = &units_[offset(u.lo, v, w)];
-                if (v < 0 || v >= task_.cells.count(v_)) {
+                if (v < 0 || v >= task_.cells.grid.count(v_)) {
                     std::fill(row, row + (u.hi - u.lo), none);
                     continue;
                 }
                 if (u.lo < 0) {
                     std::fill(row, row - u.lo, none);
                 }
-                if (const std::int64_t end = task_.cells.count(u_); u.hi > end) {
+                if (const std::int64_t end = task_.cells.grid.count(u_); u.hi > end) {
                     std::fill(row + (end - u.lo), row + (u.hi - u.lo), none);
                 }
             }
@@ -154,8 +154,8 @@ class Strip {
         steps[v_] = row_;
         steps[w_] = layer_;
         // A ray's first sample at the cube's end may stand for half a step, and so its last.
-        const std::int64_t voxels = task_.cells.voxels, last = task_.cells.count(w_) - 1;
-        const std::int64_t voxels_of_last = task_.cells.n[w_] - 1 - last * voxels;
+        const std::int64_t voxels = task_.cells.grid.edge, last = task_.cells.grid.count(w_) - 1;
+        const std::int64_t voxels_of_last = task_.cells.grid.n[w_] - 1 - last * voxels;
         const auto counted = [&](const Index3& at, std::int64_t units) {
             return at[w_] == last ? units * voxels_of_last / (2 * voxels) : at[w_] == 0 ? units / 2 : units;
         };
@@ -188,7 +188,7 @@ FunctionTable column_functions(const Cells& cells, const BlockGrid& grid, const 
                                const DirectionGrid& directions, base::Workers& workers,
                                const std::stop_token& stop) {
     FunctionTable table{.blocks = grid.blocks_of(box), .side = directions.side(), .codes = {}};
-    const Task task{cells, directions, grid.edge() / cells.voxels, table};
+    const Task task{cells, directions, grid.edge() / cells.grid.edge, table};
     const bool none = task.edge == 0 || cells.box.cells(0) * cells.box.cells(1) * cells.box.cells(2) == 0;
     table.codes.assign(table.block_count() * static_cast<std::size_t>(directions.cells()),
                        static_cast<std::uint8_t>(none ? 0 : most_code));

@@ -95,7 +95,7 @@ FunctionTable block_functions(const Cells& cells, const BlockGrid& grid, const v
     const std::size_t count = table.block_count();
     const auto sides = static_cast<std::size_t>(directions.cells());
     table.codes.assign(count * sides, 0);
-    const std::int64_t edge = grid.edge() / cells.voxels;
+    const std::int64_t edge = grid.edge() / cells.grid.edge;
     const volume::Index3 counts{table.blocks.cells(0), table.blocks.cells(1), table.blocks.cells(2)};
     const bool all = workers.for_each(
         counts[1] * counts[2],

@@ -2,22 +2,21 @@
 
 #include <algorithm>
 
+#include "common/volume/cell_grid.h"
+
 namespace shearwater::shear {
 
 using volume::Box;
 
 Halo::Halo(const Box& box, const Box& passing, const volume::Index3& n) {
-    // Octants before an end; one that the cube's end cuts off is as good as whole.
-    const auto before = [&](std::int64_t end, std::size_t a) {
-        return end == n[a] - 1 ? (end + octant - 1) / octant : end / octant;
-    };
+    const volume::CellGrid grid{n, octant};
+    const Box known = grid.within(passing);
+    own_ = grid.within(box);
     bool around = false;
     std::int64_t count = 1;
     for (std::size_t a = 0; a < 3; ++a) {
-        own_.lo[a] = (box.lo[a] + octant - 1) / octant;
-        own_.hi[a] = std::max(before(box.hi[a], a), own_.lo[a]);
-        octants_.lo[a] = std::max(own_.lo[a] - width, (passing.lo[a] + octant - 1) / octant);
-        octants_.hi[a] = std::max(std::min(own_.hi[a] + width, before(passing.hi[a], a)), octants_.lo[a]);
+        octants_.lo[a] = std::max(own_.lo[a] - width, known.lo[a]);
+        octants_.hi[a] = std::max(std::min(own_.hi[a] + width, known.hi[a]), octants_.lo[a]);
         around = around || octants_.lo[a] < own_.lo[a] || octants_.hi[a] > own_.hi[a];
         count *= octants_.hi[a] - octants_.lo[a];
     }

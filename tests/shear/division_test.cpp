@@ -9,6 +9,7 @@
 
 #include "common/image/over_windows.h"
 #include "common/image/warp.h"
+#include "common/tree/division.h"
 #include "tests/support/reference_raycaster.h"
 #include "tests/support/reference_views.h"
 
@@ -53,15 +54,16 @@ Node even_cut(const Box& box, int axis, int pieces) {
     return cut(box, axis, planes);
 }
 
-// Cuts every part again across its longest axis, and so on: the design's tree.
-void divide(Node& node, int pieces, int levels) {
-    if (levels == 0) {
-        return;
+// As a tree of renderers has it.
+Node division(const Box& box, int pieces, int levels) {
+    Node node{.box = box};
+    if (levels > 0) {
+        const std::vector<double> even(static_cast<std::size_t>(pieces), 1.0);
+        for (const Box& part : tree::divide(box, even).value()) {
+            node.parts.push_back(division(part, pieces, levels - 1));
+        }
     }
-    node = even_cut(node.box, node.box.longest_axis(), pieces);
-    for (Node& part : node.parts) {
-        divide(part, pieces, levels - 1);
-    }
+    return node;
 }
 
 // Loads every leaf's bricks once, to be drawn in many views.
@@ -182,9 +184,7 @@ TEST(Division, InTreesGivesOnePicture) {
     FloatCube cube = noise_cube({67, 37, 43}, 2);
     std::vector<Node> divisions;
     for (const auto& [pieces, levels] : {std::pair{2, 2}, {2, 3}, {3, 2}, {8, 1}}) {
-        Node node{.box = volume::whole(cube.n())};
-        divide(node, pieces, levels);
-        divisions.push_back(node);
+        divisions.push_back(division(volume::whole(cube.n()), pieces, levels));
     }
     expect_one_picture(cube, divisions, {.spacing = {1, 0.4, 1.7}, .every = 2});
 }

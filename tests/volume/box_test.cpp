@@ -20,12 +20,6 @@ TEST(Box, ContainsItselfAndItsPartsOnly) {
     EXPECT_FALSE(box.contains({{0, 0, 0}, {9, 9, 10}}));
 }
 
-TEST(Box, LongestAxisIsTheLowestOfEquals) {
-    EXPECT_EQ((Box{{0, 0, 0}, {5, 5, 5}}).longest_axis(), 0);
-    EXPECT_EQ((Box{{0, 0, 0}, {4, 5, 5}}).longest_axis(), 1);
-    EXPECT_EQ((Box{{9, 0, 0}, {10, 5, 6}}).longest_axis(), 2);
-}
-
 TEST(Box, IsWrittenAxisByAxis) {
     EXPECT_EQ(to_string(Box{{0, 1, 2}, {64, 65, 66}}), "[0,64) x [1,65) x [2,66)");
 }
