@@ -207,8 +207,7 @@ TEST(Division, UnevenlyGivesOnePicture) {
 TEST(Division, OnCoarserLevelsGivesOnePicture) {
     FloatCube cube = blanked(noise_cube({131, 67, 97}, 4), 7);
     const Box whole = volume::whole(cube.n());
-    Node tree{.box = whole};
-    divide(tree, 2, 3);
+    const Node tree = division(whole, 2, 3);
     Node uneven = cut(whole, 0, {1, 2, 3, 37, 41, 129});
     uneven.parts[3] = cut(uneven.parts[3].box, 1, {31});
     uneven.parts[5] = cut(uneven.parts[5].box, 2, {1, 17, 50, 95});
@@ -230,8 +229,8 @@ TEST(Division, OnCoarserLevelsGivesOnePicture) {
 TEST(Division, OfACroppedCubeGivesOnePicture) {
     FloatCube cube = noise_cube({47, 41, 53}, 8);
     const Box whole = volume::whole(cube.n());
-    Node tree{.box = whole}, slivers = cut(whole, 2, {1, 9, 10, 11, 40});
-    divide(tree, 2, 3);
+    const Node tree = division(whole, 2, 3);
+    Node slivers = cut(whole, 2, {1, 9, 10, 11, 40});
     slivers.parts[4] = cut(slivers.parts[4].box, 0, {8, 23, 24});
     const std::vector<Node> divisions{tree, slivers, cut(whole, 0, {8, 23}), even_cut(whole, 1, 3)};
     for (const Box& crop : {Box{{8, 0, 10}, {23, 40, 40}}, Box{{23, 5, 11}, {24, 33, 52}},
@@ -248,8 +247,7 @@ TEST(Division, OfACroppedCubeGivesOnePicture) {
 TEST(Division, OfACroppedCubeOnCoarserLevelsGivesOnePicture) {
     FloatCube cube = noise_cube({131, 67, 97}, 9);
     const Box whole = volume::whole(cube.n());
-    Node tree{.box = whole};
-    divide(tree, 2, 3);
+    const Node tree = division(whole, 2, 3);
     const std::vector<Node> divisions{tree, cut(whole, 0, {1, 2, 3, 37, 41, 129}), even_cut(whole, 2, 7)};
     for (const auto classify : {view::Classify::post, view::Classify::pre_integrated}) {
         auto levels = expect_one_picture(cube, divisions,
@@ -303,8 +301,7 @@ TEST_F(DivisionOfSegments, IntoSliversGivesOnePicture) {
 TEST_F(DivisionOfSegments, OnCoarserLevelsGivesOnePicture) {
     FloatCube cube = blanked(noise_cube({131, 67, 97}, 7), 7);
     const Box whole = volume::whole(cube.n());
-    Node tree{.box = whole};
-    divide(tree, 2, 3);
+    const Node tree = division(whole, 2, 3);
     const std::vector<Node> divisions{tree, cut(whole, 0, {1, 2, 3, 37, 41, 129}), even_cut(whole, 1, 3),
                                       even_cut(whole, 2, 7)};
     auto levels = expect_one_picture(cube, divisions, taking(3, {71, 55}, {.level_of_detail = true}));
