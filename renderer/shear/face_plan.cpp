@@ -1,7 +1,6 @@
 #include "renderer/shear/face_plan.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -74,6 +73,9 @@ FacePlan::FacePlan(const BrickVolume& volume, const Factorisation& factorisation
     gentle_ = gentle_rays();
     for (int j = window_.y0; j < window_.y1; ++j) {
         rows_.push_back(of_row(j));
+    }
+    for (int i = window_.x0; i < window_.x1; ++i) {
+        columns_.push_back(fast_clip_(everywhere, place_of(fast_axis(), i)));
     }
     plans_.resize(static_cast<std::size_t>(slice_count()));
     inside_.resize(plans_.size() + 2);
@@ -183,27 +185,22 @@ const Rect& FacePlan::inside(std::int64_t k) const {
 // `steps_of(j)(ray, i)`: how many slice distances a length of what a ray has of the cube stands for.
 template <class StepsOf>
 void FacePlan::scale(const Rect& pixels, const RayLengths& lengths, const StepsOf& steps_of) const {
-    constexpr int most = 128;  // columns at a time
-    std::array<Stretch, most> columns;
-    for (int first = pixels.x0; first < pixels.x1; first += most) {
-        const int end = std::min(first + most, pixels.x1);
-        for (int i = first; i < end; ++i) {
-            columns[static_cast<std::size_t>(i - first)] = fast_clip_(everywhere, place_of(fast_axis(), i));
-        }
-        for (int j = pixels.y0; j < pixels.y1; ++j) {
-            const Stretch row = rows_[static_cast<std::size_t>(j - window_.y0)];
-            float* const out = lengths.at(first, j);
-            const auto steps = steps_of(j);
-            for (int n = 0; n < end - first; ++n) {
-                const Stretch& column = columns[static_cast<std::size_t>(n)];
-                const Stretch ray{std::max(row.from, column.from), std::min(row.to, column.to)};
-                out[n] *= static_cast<float>(steps(ray, first + n));
-            }
+    const Stretch* const columns = &columns_[static_cast<std::size_t>(pixels.x0 - window_.x0)];
+    for (int j = pixels.y0; j < pixels.y1; ++j) {
+        const Stretch row = rows_[static_cast<std::size_t>(j - window_.y0)];
+        const std::ptrdiff_t offset = lengths.offset(pixels.x0, j);
+        const float* const step = lengths.steps + offset;
+        float* const out = lengths.lengths + offset;
+        const auto steps = steps_of(j);
+        for (int n = 0; n < pixels.width(); ++n) {
+            const Stretch& column = columns[n];
+            const Stretch ray{std::max(row.from, column.from), std::min(row.to, column.to)};
+            out[n] = step[n] * static_cast<float>(steps(ray, pixels.x0 + n));
         }
     }
 }
 
-void FacePlan::apply_shares(std::int64_t k, const Rect& pixels, const RayLengths& lengths) const {
+void FacePlan::write_shares(std::int64_t k, const Rect& pixels, const RayLengths& lengths) const {
     const double place = factorisation_.slice_place(k);
     const double half = factorisation_.slice_pitch() / 2;
     const double steps_per_voxel = 1 / factorisation_.slice_pitch();  // a power of two
@@ -227,7 +224,7 @@ void FacePlan::apply_shares(std::int64_t k, const Rect& pixels, const RayLengths
 }
 
 // `sign`: towards lower planes or higher ones.
-void FacePlan::apply_rims(std::int64_t k, int sign, const Rect& pixels, const RayLengths& lengths) const {
+void FacePlan::write_rims(std::int64_t k, int sign, const Rect& pixels, const RayLengths& lengths) const {
     const double place = factorisation_.slice_place(k);
     const double steps_per_voxel = 1 / factorisation_.slice_pitch();
     scale(pixels, lengths, [&](int) {

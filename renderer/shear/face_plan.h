@@ -25,13 +25,14 @@ struct SlicePlan {
     view::Rect whole;    // those whose samples stand for a whole step
 };
 
-// Lengths on the rays of a face's pixels: that of pixel (x, y) lies at at(x, y).
+// Lengths on the rays of a face's pixels, of whole steps and of what samples stand for instead.
 struct RayLengths {
-    float* first;           // of pixel (x0, y0)
-    std::ptrdiff_t stride;  // from row to row
+    const float* steps;     // from pixel (x0, y0) on
+    float* lengths;         // that are written, likewise
+    std::ptrdiff_t stride;  // of both, from row to row
     int x0, y0;
 
-    float* at(int x, int y) const { return first + (y - y0) * stride + (x - x0); }
+    std::ptrdiff_t offset(int x, int y) const { return (y - y0) * stride + (x - x0); }
 };
 
 class FacePlan {
@@ -68,21 +69,21 @@ class FacePlan {
     // "The cube" is what is shown of it (Factorisation::crop).
     // The pixels whose rays meet slice k inside the cube; none where k is behind the eye.
     const view::Rect& inside(std::int64_t k) const;
-    // Multiplies lengths of some pixels, all inside(k), by how many slice distances the samples of slice k
-    // stand for on their rays. A sample stands for the half distances to both sides; the first and the last
+    // Of some pixels, all inside(k), steps times how many slice distances the samples of slice k stand for on
+    // their rays. A sample stands for the half distances to both sides; the first and the last
     // on a ray reach to where the ray enters and leaves the cube, so that together they cover it exactly.
-    void apply_shares(std::int64_t k, const view::Rect& pixels, const RayLengths& lengths) const;
+    void write_shares(std::int64_t k, const view::Rect& pixels, const RayLengths& lengths) const;
 
     // Of segments from slice to slice (segments.h). The slice behind k; its pixels are inside() too.
     std::int64_t behind(std::int64_t k) const { return k + face_.sign; }
     std::int64_t before(std::int64_t k) const { return k - face_.sign; }
-    // Multiplies lengths by how many slice distances the rays of some pixels have in the cube between slice
-    // k, which they all meet inside it, and the one before or behind it, which they do not.
-    void apply_entries(std::int64_t k, const view::Rect& pixels, const RayLengths& lengths) const {
-        apply_rims(k, -face_.sign, pixels, lengths);
+    // Steps times how many slice distances the rays of some pixels have in the cube between slice k, which
+    // they all meet inside it, and the one before or behind it, which they do not.
+    void write_entries(std::int64_t k, const view::Rect& pixels, const RayLengths& lengths) const {
+        write_rims(k, -face_.sign, pixels, lengths);
     }
-    void apply_exits(std::int64_t k, const view::Rect& pixels, const RayLengths& lengths) const {
-        apply_rims(k, face_.sign, pixels, lengths);
+    void write_exits(std::int64_t k, const view::Rect& pixels, const RayLengths& lengths) const {
+        write_rims(k, face_.sign, pixels, lengths);
     }
     // The pixels whose rays move sideways by no more than a voxel from plane to plane.
     const view::Rect& gentle() const { return gentle_; }
@@ -99,7 +100,7 @@ class FacePlan {
     Stretch of_row(int j) const;
     template <class StepsOf>
     void scale(const view::Rect& pixels, const RayLengths& lengths, const StepsOf& steps_of) const;
-    void apply_rims(std::int64_t k, int sign, const view::Rect& pixels, const RayLengths& lengths) const;
+    void write_rims(std::int64_t k, int sign, const view::Rect& pixels, const RayLengths& lengths) const;
     std::size_t slot(std::int64_t k) const { return static_cast<std::size_t>(k - slices_.first); }
     bool perspective() const { return factorisation_.projection == view::Projection::perspective; }
 
@@ -109,8 +110,9 @@ class FacePlan {
     volume::Box shown_;          // of the cube
     volume::Index3 last_voxel_;  // of the cube
     view::Rect window_, gentle_;
-    std::vector<Stretch> rows_;  // what all rays of a row of the window are within, inside the cube
-    view::SliceRange slices_;    // that the sub-volume owns, in front of the eye
+    std::vector<Stretch> rows_;     // what all rays of a row of the window are within, inside the cube
+    std::vector<Stretch> columns_;  // and of a column, whatever the row
+    view::SliceRange slices_;       // that the sub-volume owns, in front of the eye
     AxisClip fast_clip_, slow_clip_;
     std::vector<SlicePlan> plans_;
     std::vector<view::Rect> inside_;  // of the slices and of one more at either end

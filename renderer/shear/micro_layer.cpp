@@ -17,6 +17,10 @@ constexpr auto bits_of = [] {
     return bits;
 }();
 
+// A bit for each of a micro-brick's octants in the half nearer to the cube's first plane, by the axis across
+// it.
+constexpr std::array nearer_octants{0x55U, 0x33U, 0x0fU};
+
 }  // namespace
 
 double distance(const FacePlan& plan, const CodeGrid& grid, int axis, const MicroRun& run) {
@@ -39,6 +43,8 @@ MicroLayer::MicroLayer(const CodeVolume& codes, std::span<const Content> content
     fast_stride_ = strides[static_cast<std::size_t>(plan.fast_axis())];
     slow_stride_ = strides[static_cast<std::size_t>(plan.slow_axis())];
     rows_.reserve(static_cast<std::size_t>(slow.end - slow.first));
+    const int to_far = 1 << plan.face().axis;  // from an octant to the one behind it
+    const unsigned near = nearer_octants[static_cast<std::size_t>(plan.face().axis)];
     std::int64_t opaque = 0, blank = 0;
     for (std::int64_t s = slow.first; s < slow.end; ++s) {
         Row row;
@@ -46,6 +52,8 @@ MicroLayer::MicroLayer(const CodeVolume& codes, std::span<const Content> content
             const Content& content = at(f, s);
             blank += content.blanks ? 1 : 0;
             if (content.opaque_octants != 0) {
+                halves_alike_ = halves_alike_ &&
+                                (content.opaque_octants & near) == (content.opaque_octants >> to_far & near);
                 opaque += bits_of[content.opaque_octants];
                 row.first = row.opaque_octants == 0 ? f : row.first;
                 row.end = f + 1;

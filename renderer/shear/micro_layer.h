@@ -19,6 +19,8 @@ class MicroLayer {
                std::int64_t layer, const MicroRun& fast, const MicroRun& slow);
 
     Visit visit() const { return visit_; }
+    // Whether the octants to visit are the same in both halves, as where whole blocks are hidden.
+    bool halves_alike() const { return halves_alike_; }
 
     // Those of a row of octants in the part, front to back; `half` is 0 for those nearer to the cube's first
     // plane.
@@ -34,6 +36,7 @@ class MicroLayer {
     const FacePlan& plan_;
     const CodeGrid& grid_;
     Visit visit_ = Visit::none;
+    bool halves_alike_ = true;
     std::int64_t first_row_;
     struct Row {
         std::uint8_t opaque_octants = 0;  // that any micro-brick of it has

@@ -79,6 +79,7 @@ std::vector<view::RaySample> sample(const BrickVolume& volume, const OpacityTabl
     float step = 0;
     plan.steps(0, 0, {&step, 1});
     const double depth_of_step = static_cast<double>(step) * static_cast<double>(table.depth_unit()) * M_LN2;
+    constexpr float whole_step = 1;
     double gathered = 0;
     for (std::int64_t n = 0; n < plan.slice_count(); ++n) {
         const std::int64_t k = plan.slice(n);
@@ -89,8 +90,9 @@ std::vector<view::RaySample> sample(const BrickVolume& volume, const OpacityTabl
         if (!(code > 0)) {
             continue;
         }
-        float share = 1;
-        plan.apply_shares(k, {0, 0, 1, 1}, {.first = &share, .stride = 1, .x0 = 0, .y0 = 0});
+        float share = 0;
+        plan.write_shares(k, {0, 0, 1, 1},
+                          {.steps = &whole_step, .lengths = &share, .stride = 1, .x0 = 0, .y0 = 0});
         const double depth = extinction_of(code, table) * static_cast<double>(share) * depth_of_step;
         if (static_cast<float>(depth) > 0) {
             samples.push_back({k, static_cast<float>(depth)});

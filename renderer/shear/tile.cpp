@@ -48,7 +48,7 @@ Tile<Code>::Tile(const BrickVolume& volume, const Classification& classification
       plan_(plan),
       met_(met),
       voxels_(codes_, plan),
-      planes_(std::make_unique<Planes>()) {}
+      planes_(std::make_unique_for_overwrite<Planes>()) {}
 
 template <class Code>
 bool Tile<Code>::render(const Rect& rect) {
@@ -153,11 +153,15 @@ void Tile<Code>::render_slices(Slices slices, std::span<const std::int64_t> numb
         render_part(slices, numbers, layer.visit(), true);
         return;
     }
+    const auto [fast, slow] = runs_of(region, CodeVolume::octant_edge);
+    if (layer.halves_alike()) {
+        render_octants(slices, numbers, layer, 0, fast, slow);
+        return;
+    }
     // Half a layer at a time, front to back.
     const std::int64_t middle =
         (codes_.micro_bricks().first(plan_.face().axis) + number) * CodeVolume::micro_edge +
         CodeVolume::octant_edge;
-    const auto [fast, slow] = runs_of(region, CodeVolume::octant_edge);
     for (std::size_t first = 0, end = 0; first < slices.size(); first = end) {
         const bool farther = cell_of(numbers[first]) >= middle;
         while (end < slices.size() && (cell_of(numbers[end]) >= middle) == farther) {
@@ -266,7 +270,7 @@ template <class Code>
 bool Tile<Code>::composite(Slices slices, std::span<const std::int64_t> numbers, Slab<Code>& slab) {
     for (std::size_t n = 0; n < slices.size(); ++n) {
         Slice<Code>& slice = slab.slices[n];
-        slice.lengths = lengths_on(numbers[n], slice.pixels, planes_->lengths[n]);
+        slice.lengths = lengths_on(numbers[n], slice.pixels, n);
     }
     const std::uint64_t taken = composite_slab(slab, classification_.table, rays());
     samples_ += taken;

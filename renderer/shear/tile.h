@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -66,7 +67,7 @@ class Tile {
     struct Planes {
         alignas(64) Plane r, g, b, a;
         alignas(64) Plane steps;  // the length of a whole step, in the table's units
-        alignas(64) std::array<Plane, Slab<Code>::max_slices> lengths;  // of slices with shorter ones
+        alignas(64) std::array<Plane, Slab<Code>::max_slices> lengths;  // of a slab's slices with other ones
         alignas(64) Plane entries, exits;  // of segments that end where a ray comes into the cube or goes out
     };
     using Slices = std::span<const Slice<Code>>;
@@ -114,13 +115,17 @@ class Tile {
     Block block_of(const VoxelRegion& region) const;
     VoxelRegion behind(const VoxelRegion& region) const;
     void note_met(const VoxelRegion& region);
-    const float* lengths_on(std::int64_t k, const view::Rect& pixels, Plane& spare);
+    const float* lengths_on(std::int64_t k, const view::Rect& pixels, std::size_t n);
     void copy_steps(const view::Rect& pixels, Plane& to) const;
     view::Rect in_face(const view::Rect& pixels) const {
         return {pixels.x0 + rect_.x0, pixels.y0 + rect_.y0, pixels.x1 + rect_.x0, pixels.y1 + rect_.y0};
     }
     RayLengths lengths_in(Plane& plane) const {
-        return {.first = plane.data(), .stride = stride, .x0 = rect_.x0, .y0 = rect_.y0};
+        return {.steps = planes_->steps.data(),
+                .lengths = plane.data(),
+                .stride = stride,
+                .x0 = rect_.x0,
+                .y0 = rect_.y0};
     }
     void store_row(int j, const view::Rgb* one_hue, image::Window& window, int x0, int y);
     void narrow_live();
@@ -145,6 +150,10 @@ class Tile {
     bool between_nodes_ = true, faint_ = false;
     std::uint64_t samples_ = 0;
     std::unique_ptr<Planes> planes_;
+    // Where a plane of lengths has others than whole steps: all else of it is as long as they are, if it is
+    // used.
+    using Rims = std::array<view::Rect, 4>;
+    std::array<std::optional<Rims>, Slab<Code>::max_slices> rims_;
     // Kept from layer to layer for their memory.
     std::vector<std::int64_t> octant_rows_;
     std::vector<OctantRun> runs_, next_runs_;

@@ -24,6 +24,7 @@ constexpr float jump_seen = 1.0F / 64;
 template <class Code>
 void Tile<Code>::begin_rays() {
     begun_ = true;
+    rims_.fill({});
     for (Plane* const plane : {&planes_->r, &planes_->g, &planes_->b, &planes_->a}) {
         std::fill_n(plane->begin(), rect_.height() * stride, 0.0F);
     }
@@ -85,22 +86,36 @@ Rays Tile<Code>::rays() {
             .done = plan_.opaque()};
 }
 
-// Most samples stand for a whole step. Those that do not are at the rim of what the cube covers on a slice.
+// Most samples stand for a whole step. Those that do not are at the rim of what the cube covers on a slice:
+// of the n-th plane of lengths, which some slice had before this one, only its rim and that one's are
+// written.
 template <class Code>
-const float* Tile<Code>::lengths_on(std::int64_t k, const Rect& pixels, Plane& spare) {
+const float* Tile<Code>::lengths_on(std::int64_t k, const Rect& pixels, std::size_t n) {
     const Rect& face_inner = plan_.slice_plan(k).whole;
     const Rect inner{face_inner.x0 - rect_.x0, face_inner.y0 - rect_.y0, face_inner.x1 - rect_.x0,
                      face_inner.y1 - rect_.y0};
     if (intersection(pixels, inner) == pixels) {
         return planes_->steps.data();
     }
-    copy_steps(pixels, spare);
-    for (const Rect& rim : left_over(pixels, inner)) {
-        if (!rim.empty()) {
-            plan_.apply_shares(k, in_face(rim), lengths_in(spare));
+    Plane& lengths = planes_->lengths[n];
+    const Rims rims = left_over(pixels, inner);
+    if (!rims_[n]) {
+        copy_steps({0, 0, rect_.width(), rect_.height()}, lengths);
+    } else {
+        for (std::size_t side = 0; side < rims.size(); ++side) {
+            const Rect& before = (*rims_[n])[side];
+            if (intersection(before, rims[side]) != before) {
+                copy_steps(before, lengths);
+            }
         }
     }
-    return spare.data();
+    for (const Rect& rim : rims) {
+        if (!rim.empty()) {
+            plan_.write_shares(k, in_face(rim), lengths_in(lengths));
+        }
+    }
+    rims_[n] = rims;
+    return lengths.data();
 }
 
 template <class Code>
@@ -175,14 +190,14 @@ void Tile<Code>::store(image::Window& window) {
 template void Tile<std::uint8_t>::begin_rays();
 template void Tile<std::uint8_t>::narrow_live();
 template Rays Tile<std::uint8_t>::rays();
-template const float* Tile<std::uint8_t>::lengths_on(std::int64_t, const Rect&, Plane&);
+template const float* Tile<std::uint8_t>::lengths_on(std::int64_t, const Rect&, std::size_t);
 template void Tile<std::uint8_t>::copy_steps(const Rect&, Plane&) const;
 template void Tile<std::uint8_t>::store_row(int, const view::Rgb*, image::Window&, int, int);
 template void Tile<std::uint8_t>::store(image::Window&);
 template void Tile<std::uint16_t>::begin_rays();
 template void Tile<std::uint16_t>::narrow_live();
 template Rays Tile<std::uint16_t>::rays();
-template const float* Tile<std::uint16_t>::lengths_on(std::int64_t, const Rect&, Plane&);
+template const float* Tile<std::uint16_t>::lengths_on(std::int64_t, const Rect&, std::size_t);
 template void Tile<std::uint16_t>::copy_steps(const Rect&, Plane&) const;
 template void Tile<std::uint16_t>::store_row(int, const view::Rgb*, image::Window&, int, int);
 template void Tile<std::uint16_t>::store(image::Window&);

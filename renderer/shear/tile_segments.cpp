@@ -24,29 +24,30 @@ class Tile<Code>::Segments {
     void add(std::int64_t k, const Rect& pixels) {
         const int front = slice_of(k, pixels);
         const Rect gentle = intersection(pixels, here(plan_.gentle()));
-        for (const Rect& part : left_over(pixels, gentle)) {
-            if (!part.empty()) {
-                add({front, front, part,
-                     tile_.lengths_on(k, part, planes_.lengths[static_cast<std::size_t>(front)])});
+        if (pixels != gentle) {
+            const float* const lengths = tile_.lengths_on(k, pixels, static_cast<std::size_t>(front));
+            for (const Rect& part : left_over(pixels, gentle)) {
+                if (!part.empty()) {
+                    add({front, front, part, lengths});
+                }
             }
         }
         // Every ray comes in before one slice, and goes out behind one: a plane has room for all of a tile's.
-        const auto rims = [&](const Rect& part, Plane& lengths, auto apply) {
+        const auto rims = [&](const Rect& part, Plane& lengths, auto write) {
             if (!part.empty()) {
-                tile_.copy_steps(part, lengths);
-                (plan_.*apply)(k, tile_.in_face(part), tile_.lengths_in(lengths));
+                (plan_.*write)(k, tile_.in_face(part), tile_.lengths_in(lengths));
                 add({front, front, part, lengths.data()});
             }
         };
         for (const Rect& part : left_over(gentle, here(plan_.inside(plan_.before(k))))) {
-            rims(part, planes_.entries, &FacePlan::apply_entries);
+            rims(part, planes_.entries, &FacePlan::write_entries);
         }
         const Rect whole = intersection(gentle, here(plan_.inside(plan_.behind(k))));
         if (!whole.empty()) {
             add({front, slice_of(plan_.behind(k), whole), whole, planes_.steps.data()});
         }
         for (const Rect& part : left_over(gentle, whole)) {
-            rims(part, planes_.exits, &FacePlan::apply_exits);
+            rims(part, planes_.exits, &FacePlan::write_exits);
         }
     }
 
