@@ -182,20 +182,29 @@ const Rect& FacePlan::inside(std::int64_t k) const {
     return inside_[slot(k) + 1];
 }
 
-// `steps_of(j)(ray, i)`: how many slice distances a length of what a ray has of the cube stands for.
-template <class StepsOf>
-void FacePlan::scale(const Rect& pixels, const RayLengths& lengths, const StepsOf& steps_of) const {
-    const Stretch* const columns = &columns_[static_cast<std::size_t>(pixels.x0 - window_.x0)];
-    for (int j = pixels.y0; j < pixels.y1; ++j) {
-        const Stretch row = rows_[static_cast<std::size_t>(j - window_.y0)];
-        const std::ptrdiff_t offset = lengths.offset(pixels.x0, j);
-        const float* const step = lengths.steps + offset;
-        float* const out = lengths.lengths + offset;
-        const auto steps = steps_of(j);
-        for (int n = 0; n < pixels.width(); ++n) {
-            const Stretch& column = columns[n];
-            const Stretch ray{std::max(row.from, column.from), std::min(row.to, column.to)};
-            out[n] = step[n] * static_cast<float>(steps(ray, pixels.x0 + n));
+// `steps(ray, i, j)`: how many slice distances a length of what the ray of pixel (i, j) has of the cube
+// stands for.
+template <class Steps>
+void FacePlan::scale(const Rect& pixels, const RayLengths& lengths, const Steps& steps) const {
+    const auto write = [&](int i, int j) {
+        const Stretch& row = rows_[static_cast<std::size_t>(j - window_.y0)];
+        const Stretch& column = columns_[static_cast<std::size_t>(i - window_.x0)];
+        const Stretch ray{std::max(row.from, column.from), std::min(row.to, column.to)};
+        const std::ptrdiff_t at = lengths.offset(i, j);
+        lengths.lengths[at] = lengths.steps[at] * static_cast<float>(steps(ray, i, j));
+    };
+    // A rim is long along one axis, and a pixel or two wide along the other.
+    if (pixels.width() < pixels.height()) {
+        for (int i = pixels.x0; i < pixels.x1; ++i) {
+            for (int j = pixels.y0; j < pixels.y1; ++j) {
+                write(i, j);
+            }
+        }
+    } else {
+        for (int j = pixels.y0; j < pixels.y1; ++j) {
+            for (int i = pixels.x0; i < pixels.x1; ++i) {
+                write(i, j);
+            }
         }
     }
 }
@@ -205,21 +214,15 @@ void FacePlan::write_shares(std::int64_t k, const Rect& pixels, const RayLengths
     const double half = factorisation_.slice_pitch() / 2;
     const double steps_per_voxel = 1 / factorisation_.slice_pitch();  // a power of two
     const Rect below = inside(k - 1), above = inside(k + 1);
-    // Of row j.
-    const auto columns = [](const Rect& rect, int j) {
-        return rect.y0 <= j && j < rect.y1 ? std::pair(rect.x0, rect.x1) : std::pair(0, 0);
+    const auto has = [](const Rect& rect, int i, int j) {
+        return (rect.x0 <= i) & (i < rect.x1) & (rect.y0 <= j) & (j < rect.y1);
     };
-    scale(pixels, lengths, [&](int j) {
-        const auto [below_first, below_end] = columns(below, j);
-        const auto [above_first, above_end] = columns(above, j);
-        return [=](const Stretch& ray, int i) {
-            // On the cube's first plane a ray is at its end, as all are.
-            const double start = std::min(place, ray.from), end = std::max(place, ray.to);
-            const bool has_below = (below_first <= i) & (i < below_end),
-                       has_above = (above_first <= i) & (i < above_end);
-            const double from = has_below ? place - half : start, to = has_above ? place + half : end;
-            return std::min((to - from) * steps_per_voxel, 2.0);
-        };
+    scale(pixels, lengths, [=](const Stretch& ray, int i, int j) {
+        // On the cube's first plane a ray is at its end, as all are.
+        const double start = std::min(place, ray.from), end = std::max(place, ray.to);
+        const double from = has(below, i, j) ? place - half : start,
+                     to = has(above, i, j) ? place + half : end;
+        return std::min((to - from) * steps_per_voxel, 2.0);
     });
 }
 
@@ -227,11 +230,9 @@ void FacePlan::write_shares(std::int64_t k, const Rect& pixels, const RayLengths
 void FacePlan::write_rims(std::int64_t k, int sign, const Rect& pixels, const RayLengths& lengths) const {
     const double place = factorisation_.slice_place(k);
     const double steps_per_voxel = 1 / factorisation_.slice_pitch();
-    scale(pixels, lengths, [&](int) {
-        return [=](const Stretch& ray, int) {
-            const double length = sign > 0 ? ray.to - place : place - ray.from;
-            return std::clamp(length * steps_per_voxel, 0.0, 1.0);
-        };
+    scale(pixels, lengths, [=](const Stretch& ray, int, int) {
+        const double length = sign > 0 ? ray.to - place : place - ray.from;
+        return std::clamp(length * steps_per_voxel, 0.0, 1.0);
     });
 }
 

@@ -98,8 +98,8 @@ class FacePlan {
     void lay_slice(const volume::Box& box, std::int64_t k);
     view::Rect gentle_rays() const;
     Stretch of_row(int j) const;
-    template <class StepsOf>
-    void scale(const view::Rect& pixels, const RayLengths& lengths, const StepsOf& steps_of) const;
+    template <class Steps>
+    void scale(const view::Rect& pixels, const RayLengths& lengths, const Steps& steps) const;
     void write_rims(std::int64_t k, int sign, const view::Rect& pixels, const RayLengths& lengths) const;
     std::size_t slot(std::int64_t k) const { return static_cast<std::size_t>(k - slices_.first); }
     bool perspective() const { return factorisation_.projection == view::Projection::perspective; }

@@ -120,6 +120,17 @@ const float* Tile<Code>::lengths_on(std::int64_t k, const Rect& pixels, std::siz
 
 template <class Code>
 void Tile<Code>::copy_steps(const Rect& pixels, Plane& to) const {
+    constexpr int few = 16;
+    if (pixels.width() < few) {
+        // Too few for a copy of each row of them.
+        for (int i = pixels.x0; i < pixels.x1; ++i) {
+            for (int j = pixels.y0; j < pixels.y1; ++j) {
+                const auto at = static_cast<std::size_t>(j * stride + i);
+                to[at] = planes_->steps[at];
+            }
+        }
+        return;
+    }
     for (int j = pixels.y0; j < pixels.y1; ++j) {
         const float* const row = &planes_->steps[static_cast<std::size_t>(j * stride)];
         std::copy(row + pixels.x0, row + pixels.x1, &to[static_cast<std::size_t>(j * stride + pixels.x0)]);
