@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <string>
 
 #include "common/image/warp.h"
 #include "deploy/bench/culled_pictures.h"
@@ -61,7 +63,12 @@ TEST_P(CullingKinds, ChangeNoPictureOfNoise) {
     expect_no_difference(noise, {12, 1, {.kind = GetParam(), .threshold = 0.95}, 0.05, 12});
 }
 
-INSTANTIATE_TEST_SUITE_P(All, CullingKinds, testing::Values(Kind::opof, Kind::opof_linear, Kind::pof));
+INSTANTIATE_TEST_SUITE_P(All, CullingKinds, testing::Values(Kind::opof, Kind::opof_linear, Kind::pof),
+                         [](const auto& of) {
+                             std::string name(kind_names[static_cast<std::size_t>(of.param)]);
+                             std::ranges::replace(name, '-', '_');  // names of tests have none
+                             return name;
+                         });
 
 // What opof shows opof-linear does, and what that shows pof does, block by block.
 TEST(Culling, OfEachKindLeavesOutWhatThoseBeforeItDo) {
