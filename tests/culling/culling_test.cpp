@@ -64,8 +64,8 @@ TEST_P(CullingKinds, ChangeNoPictureOfNoise) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, CullingKinds, testing::Values(Kind::opof, Kind::opof_linear, Kind::pof),
-                         [](const auto& of) {
-                             std::string name(kind_names[static_cast<std::size_t>(of.param)]);
+                         [](const auto& tested) {
+                             std::string name(kind_names[static_cast<std::size_t>(tested.param)]);
                              std::ranges::replace(name, '-', '_');  // names of tests have none
                              return name;
                          });

@@ -168,13 +168,12 @@ TEST_P(SlabTest, HasTheOpacityOfItsThicknessInEveryView) {
     EXPECT_GT(pixels, 1000);
 }
 
+constexpr std::array spacing_names{"even", "uneven", "flat", "small"};
+
 INSTANTIATE_TEST_SUITE_P(Spacings, SlabTest,
                          testing::Values(Vec3(1, 1, 1), Vec3(0.3, 1, 4), Vec3(7, 0.2, 1),
                                          Vec3(0.01, 0.02, 0.01)),
-                         [](const auto& of) {
-                             constexpr std::array names{"even", "uneven", "flat", "small"};
-                             return names[of.index];
-                         });
+                         [](const auto& tested) { return spacing_names[tested.index]; });
 
 // Of any thickness, whatever the level of detail.
 TEST(SlabTest, HasTheSameOpacityOnEveryLevel) {
