@@ -38,7 +38,7 @@ class Tile {
     // slices, a tile needs more of them than its own as rays move on sideways: the fewer, the higher it is.
     // Where there is little to be seen, most of the work is done once for every tile and layer.
     static int rows_of(const BrickVolume& volume, const FacePlan& plan, bool sparse) {
-        constexpr int usual = 32, turned = 48;
+        constexpr int usual = 32, turned = 64;
         // No two tiles light a block of pixels, whichever way they lie.
         constexpr int block = image::LitBlocks::block;
         static_assert(turned < height && width % block == 0 && height % block == 0 && turned % block == 0 &&
