@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/check.h"
+#include "common/volume/cell_grid.h"
 
 namespace shearwater::culling {
 
@@ -12,7 +13,7 @@ using volume::Index3;
 BlockGrid::BlockGrid(const Index3& n, std::int64_t edge) : edge_(edge), n_(n) {
     base::check(edge == 16 || edge == 32, "a block has 16 or 32 voxels a side");
     for (std::size_t a = 0; a < 3; ++a) {
-        counts_[a] = (n[a] - 2) / edge + 1;
+        counts_[a] = volume::CellGrid{n, edge}.count(a);
     }
 }
 

@@ -27,15 +27,27 @@ struct Part {
     }
 };
 
+// A sub-volume, and which of the cells that its table is made from it has.
+struct Known {
+    const SubVolume* of;
+    Box cells;
+};
+
+std::vector<Known> known_of(const BlockGrid& grid, const std::vector<SubVolume>& sub_volumes) {
+    std::vector<Known> known;
+    for (const SubVolume& of : sub_volumes) {
+        known.push_back({&of, volume::CellGrid{grid.voxels(), of.cell}.within(of.box)});
+    }
+    return known;
+}
+
 // Those that a block has, with what of the block they say nothing about left out.
-std::vector<Part> parts_of(const BlockGrid& grid, const Index3& at, const std::vector<SubVolume>& all) {
-    const Box block = grid.box(at);
+std::vector<Part> parts_of(const Index3& at, const Box& block, const std::vector<Known>& all) {
     std::vector<Part> parts;
-    for (const SubVolume& sub_volume : all) {
-        const Box& blocks = sub_volume.table->blocks;
-        const std::int64_t edge = sub_volume.cell;
-        const Box cells = volume::CellGrid{grid.voxels(), edge}.within(sub_volume.box);
-        Part part{&sub_volume, {}, 0};
+    for (const auto& [sub_volume, cells] : all) {
+        const Box& blocks = sub_volume->table->blocks;
+        const std::int64_t edge = sub_volume->cell;
+        Part part{sub_volume, {}, 0};
         bool meets = true;
         Index3 offset;
         for (std::size_t a = 0; a < 3; ++a) {
@@ -92,11 +104,12 @@ FunctionTable merged(const BlockGrid& grid, const DirectionGrid& directions, Foo
     const Index3& counts = grid.counts();
     FunctionTable table{.blocks = {{0, 0, 0}, counts}, .side = directions.side(), .codes = {}};
     const auto sides = static_cast<std::size_t>(directions.cells());
+    const std::vector<Known> known = known_of(grid, sub_volumes);
     table.codes.assign(grid.size() * sides, 0);
     for (std::size_t index = 0; index < grid.size(); ++index) {
         const Index3 at = grid.at(index);
         const Box block = grid.box(at);
-        const std::vector<Part> parts = parts_of(grid, at, sub_volumes);
+        const std::vector<Part> parts = parts_of(at, block, known);
         if (parts.empty()) {
             continue;
         }

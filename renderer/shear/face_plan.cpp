@@ -185,8 +185,8 @@ const Rect& FacePlan::inside(std::int64_t k) const {
 // `steps(ray, i, j)`: how many slice distances a length of what the ray of pixel (i, j) has of the cube
 // stands for.
 template <class Steps>
-void FacePlan::scale(const Rect& pixels, const RayLengths& lengths, const Steps& steps) const {
-    const auto write = [&](int i, int j) {
+void FacePlan::write(const Rect& pixels, const RayLengths& lengths, const Steps& steps) const {
+    const auto write_one = [&](int i, int j) {
         const Stretch& row = rows_[static_cast<std::size_t>(j - window_.y0)];
         const Stretch& column = columns_[static_cast<std::size_t>(i - window_.x0)];
         const Stretch ray{std::max(row.from, column.from), std::min(row.to, column.to)};
@@ -197,13 +197,13 @@ void FacePlan::scale(const Rect& pixels, const RayLengths& lengths, const Steps&
     if (pixels.width() < pixels.height()) {
         for (int i = pixels.x0; i < pixels.x1; ++i) {
             for (int j = pixels.y0; j < pixels.y1; ++j) {
-                write(i, j);
+                write_one(i, j);
             }
         }
     } else {
         for (int j = pixels.y0; j < pixels.y1; ++j) {
             for (int i = pixels.x0; i < pixels.x1; ++i) {
-                write(i, j);
+                write_one(i, j);
             }
         }
     }
@@ -217,7 +217,7 @@ void FacePlan::write_shares(std::int64_t k, const Rect& pixels, const RayLengths
     const auto has = [](const Rect& rect, int i, int j) {
         return (rect.x0 <= i) & (i < rect.x1) & (rect.y0 <= j) & (j < rect.y1);
     };
-    scale(pixels, lengths, [=](const Stretch& ray, int i, int j) {
+    write(pixels, lengths, [=](const Stretch& ray, int i, int j) {
         // On the cube's first plane a ray is at its end, as all are.
         const double start = std::min(place, ray.from), end = std::max(place, ray.to);
         const double from = has(below, i, j) ? place - half : start,
@@ -230,7 +230,7 @@ void FacePlan::write_shares(std::int64_t k, const Rect& pixels, const RayLengths
 void FacePlan::write_rims(std::int64_t k, int sign, const Rect& pixels, const RayLengths& lengths) const {
     const double place = factorisation_.slice_place(k);
     const double steps_per_voxel = 1 / factorisation_.slice_pitch();
-    scale(pixels, lengths, [=](const Stretch& ray, int, int) {
+    write(pixels, lengths, [=](const Stretch& ray, int, int) {
         const double length = sign > 0 ? ray.to - place : place - ray.from;
         return std::clamp(length * steps_per_voxel, 0.0, 1.0);
     });

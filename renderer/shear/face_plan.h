@@ -70,8 +70,8 @@ class FacePlan {
     // The pixels whose rays meet slice k inside the cube; none where k is behind the eye.
     const view::Rect& inside(std::int64_t k) const;
     // Of some pixels, all inside(k), steps times how many slice distances the samples of slice k stand for on
-    // their rays. A sample stands for the half distances to both sides; the first and the last
-    // on a ray reach to where the ray enters and leaves the cube, so that together they cover it exactly.
+    // their rays. A sample stands for the half distances to both sides; the first and the last on a ray reach
+    // to where the ray enters and leaves the cube, so that together they cover it exactly.
     void write_shares(std::int64_t k, const view::Rect& pixels, const RayLengths& lengths) const;
 
     // Of segments from slice to slice (segments.h). The slice behind k; its pixels are inside() too.
@@ -99,7 +99,7 @@ class FacePlan {
     view::Rect gentle_rays() const;
     Stretch of_row(int j) const;
     template <class Steps>
-    void scale(const view::Rect& pixels, const RayLengths& lengths, const Steps& steps) const;
+    void write(const view::Rect& pixels, const RayLengths& lengths, const Steps& steps) const;
     void write_rims(std::int64_t k, int sign, const view::Rect& pixels, const RayLengths& lengths) const;
     std::size_t slot(std::int64_t k) const { return static_cast<std::size_t>(k - slices_.first); }
     bool perspective() const { return factorisation_.projection == view::Projection::perspective; }
