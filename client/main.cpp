@@ -64,7 +64,7 @@ void declare(CLI::App& app, Options& options) {
     app.add_option("--controls", options.controls,
                    "Keep in this file where each control is, for scripts: NAME X Y WIDTH HEIGHT");
     app.add_option("--pass-log", options.pass_log,
-                   "Keep in this file how often the window is drawn: SECOND PASSES PICTURES, a line each");
+                   "Keep in this file how often the window is drawn: SECOND PASSES DRAWN PICTURES, a line each");
     app.add_option("--screenshot", options.screenshot,
                    "Write the window to this PNG file once the first whole picture is seen, and end");
     app.footer("With neither a server nor a command the window asks where the cube is.");

@@ -10,12 +10,15 @@ namespace shearwater::ui {
 
 class PassLog {
   public:
-    // Lines are "SECOND PASSES PICTURES": counted from here, passes of widgets that were shown in it, and
-    // pictures that were new to them. Nothing is written where the path is empty.
+    // Lines are "SECOND PASSES DRAWN PICTURES": counted from here, passes of widgets in it, those that looked
+    // other than the one before and were drawn, and pictures that were new to them. Nothing is written where
+    // the path is empty.
     explicit PassLog(std::string path) : path_(std::move(path)) {}
 
-    // After a pass.
-    base::Status count(bool has_new_picture);
+    struct Pass {
+        bool drawn, has_new_picture;
+    };
+    base::Status count(const Pass& pass);
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -24,7 +27,7 @@ class PassLog {
     const Clock::time_point begin_ = Clock::now();
     std::string lines_;
     std::int64_t second_ = 0;
-    int passes_ = 0, pictures_ = 0;
+    int passes_ = 0, drawn_ = 0, pictures_ = 0;
 };
 
 }  // namespace shearwater::ui

@@ -11,6 +11,7 @@ Texture::~Texture() {
 }
 
 void Texture::upload(const image::Image<image::Rgba8>& picture) {
+    ++uploads_;
     if (id_ == 0) {
         glGenTextures(1, &id_);
     }

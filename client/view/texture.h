@@ -1,6 +1,8 @@
 #pragma once
 // A picture on the graphics card.
 
+#include <cstdint>
+
 #include "common/image/image.h"
 
 namespace shearwater::ui {
@@ -19,11 +21,13 @@ class Texture {
     unsigned id() const { return id_; }
     int width() const { return width_; }
     int height() const { return height_; }
+    std::uint64_t uploads() const { return uploads_; }  // so far
 
   private:
     unsigned id_ = 0;
     int width_ = 0;
     int height_ = 0;
+    std::uint64_t uploads_ = 0;
 };
 
 }  // namespace shearwater::ui

@@ -84,14 +84,20 @@ base::Status Viewer::run() {
                 return written;
             }
         }
-        window_.draw(app_->desk().shown == image::StereoMode::quad_buffered);
+        const Desk& desk = app_->desk();
+        const bool drawn = window_.draw({.uploads = desk.picture.uploads() + desk.right_picture.uploads(),
+                                         .for_each_eye = desk.shown == image::StereoMode::quad_buffered,
+                                         .anyway = !options_.screenshot.empty()});
         if (auto done = screenshot()) {
             return *std::move(done);
         }
-        window_.show();
-        eye_windows_.show(app_->desk());
-        const std::uint64_t picture = app_->desk().picture_revision;
-        if (auto counted = pass_log_.count(picture != std::exchange(shown_picture_, picture)); !counted) {
+        if (drawn) {
+            window_.show();
+        }
+        eye_windows_.show(desk);
+        const bool has_new_picture = desk.picture_revision != shown_picture_;
+        shown_picture_ = desk.picture_revision;
+        if (auto counted = pass_log_.count({.drawn = drawn, .has_new_picture = has_new_picture}); !counted) {
             return counted;
         }
         watch();

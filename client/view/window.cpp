@@ -5,6 +5,9 @@
 #include <backends/imgui_impl_opengl3.h>
 
 #include <algorithm>
+#include <boost/container_hash/hash.hpp>
+
+#include "client/view/likeness.h"
 
 namespace shearwater::ui {
 
@@ -67,6 +70,7 @@ Window::Window(GLFWwindow* window, float scale, bool has_quad_buffers)
     glfwSetWindowUserPointer(window_, this);
     glfwSetKeyCallback(window_, on_key);  // ImGui's, set now, calls it too
     glfwSetDropCallback(window_, on_drop);
+    glfwSetWindowRefreshCallback(window_, on_uncovered);
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
     ImGui_ImplOpenGL3_Init("#version 150");
 }
@@ -115,6 +119,11 @@ void Window::on_drop(GLFWwindow* window, int count, const char** paths) {
     }
 }
 
+// What the window had in a part that was covered may be lost.
+void Window::on_uncovered(GLFWwindow* window) {
+    static_cast<Window*>(glfwGetWindowUserPointer(window))->drawn_.reset();
+}
+
 bool Window::is_down(int key) const {
     const auto held = [this](int each) { return glfwGetKey(window_, each) == GLFW_PRESS; };
     return held(key) && !with_control_.contains(key) && !held(GLFW_KEY_LEFT_CONTROL) &&
@@ -160,9 +169,19 @@ void Window::draw_here() {
     glfwMakeContextCurrent(window_);
 }
 
-void Window::draw(bool for_each_eye) {
+bool Window::draw(const Drawing& drawing) {
     ImGui::Render();
-    if (for_each_eye && has_quad_buffers_) {
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window_, &width, &height);
+    std::size_t drawn = likeness(*ImGui::GetDrawData());
+    for (const std::uint64_t of : {drawing.uploads, std::uint64_t{drawing.for_each_eye},
+                                   static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height)}) {
+        boost::hash_combine(drawn, of);
+    }
+    if (std::exchange(drawn_, drawn) == drawn && !drawing.anyway) {
+        return false;
+    }
+    if (drawing.for_each_eye && has_quad_buffers_) {
         glDrawBuffer(GL_BACK_RIGHT);
         draw_for(Eye::right);
         glDrawBuffer(GL_BACK_LEFT);
@@ -171,6 +190,7 @@ void Window::draw(bool for_each_eye) {
     if (has_quad_buffers_) {
         glDrawBuffer(GL_BACK);
     }
+    return true;
 }
 
 void Window::draw_for(Eye eye) {

@@ -1,7 +1,9 @@
 #pragma once
 // The operating system's window with a graphics context and Dear ImGui in it.
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -51,8 +53,14 @@ class Window {
     bool has_quad_buffers() const { return has_quad_buffers_; }
     // What of a pass one eye alone sees; where there is one buffer it is the left one's.
     EyeGates& gates() { return gates_; }
-    // Draws the pass to the hidden buffer, or to that of each eye; the picture is seen after show().
-    void draw(bool for_each_eye = false);
+    struct Drawing {
+        std::uint64_t uploads = 0;  // to textures, as they are counted
+        bool for_each_eye = false;  // to the hidden buffer of each
+        bool anyway = false;        // though it may be what is seen already
+    };
+    // Draws the pass to the hidden buffer, to be seen after show(); false, and nothing is to be shown, where
+    // it would look like the last that was drawn.
+    bool draw(const Drawing& drawing);
     // Draws it as one eye sees it, to the buffer that is drawn to now.
     void draw_for(Eye eye);
     image::Image<image::Rgba8> read_pixels() const;
@@ -75,6 +83,7 @@ class Window {
     Window(GLFWwindow* window, float scale, bool has_quad_buffers);
     static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
     static void on_drop(GLFWwindow* window, int count, const char** paths);
+    static void on_uncovered(GLFWwindow* window);
 
     GLFWwindow* window_;
     float scale_;
@@ -87,6 +96,7 @@ class Window {
     std::vector<int> struck_;     // keys that went down since the last pass
     std::vector<int> held_over_;  // keys that were up again before the pass they are down in
     std::vector<std::string> drops_;
+    std::optional<std::uint64_t> drawn_;  // what is seen, if all of it still is
 };
 
 }  // namespace shearwater::ui

@@ -27,14 +27,14 @@ using Clock = std::chrono::steady_clock;
 constexpr int width = 1280, height = 800;
 
 struct Second {
-    int passes = 0, pictures = 0;
+    int passes = 0, drawn = 0, pictures = 0;
 };
 
 std::vector<Second> seconds_of(const std::filesystem::path& log) {
     std::ifstream lines(log);
     std::vector<Second> all;
     int n = 0;
-    for (Second second; lines >> n >> second.passes >> second.pictures;) {
+    for (Second second; lines >> n >> second.passes >> second.drawn >> second.pictures;) {
         all.push_back(second);
     }
     return all;
@@ -42,9 +42,10 @@ std::vector<Second> seconds_of(const std::filesystem::path& log) {
 
 // From those seconds on that begin now; the one that a phase begins or ends in is left out.
 void print(const std::string& cube, const char* phase, std::span<const Second> seconds) {
-    std::vector<int> passes, pictures;
+    std::vector<int> passes, drawn, pictures;
     for (const Second& second : seconds) {
         passes.push_back(second.passes);
+        drawn.push_back(second.drawn);
         pictures.push_back(second.pictures);
     }
     if (passes.empty()) {
@@ -52,9 +53,10 @@ void print(const std::string& cube, const char* phase, std::span<const Second> s
         return;
     }
     std::ranges::sort(passes);
+    std::ranges::sort(drawn);
     std::ranges::sort(pictures);
-    fmt::print("{:>4} {:>9} {:>9} {:>9} {:>9} {:>11}\n", cube, phase, passes.size(), passes.front(),
-               passes[passes.size() / 2], pictures[pictures.size() / 2]);
+    fmt::print("{:>4} {:>9} {:>9} {:>9} {:>9} {:>9} {:>11}\n", cube, phase, passes.size(), passes.front(),
+               passes[passes.size() / 2], drawn[drawn.size() / 2], pictures[pictures.size() / 2]);
 }
 
 // Back and forth over the picture.
@@ -125,8 +127,8 @@ int run(std::chrono::seconds time) {
         fmt::print(stderr, "window_bench: {}\n", why);
         return 2;
     }
-    fmt::print("{:>4} {:>9} {:>9} {:>9} {:>9} {:>11}\n", "cube", "", "seconds", "least/s", "median/s",
-               "pictures/s");
+    fmt::print("{:>4} {:>9} {:>9} {:>9} {:>9} {:>9} {:>11}\n", "cube", "", "seconds", "least/s", "median/s",
+               "drawn/s", "pictures/s");
     for (const char* name : {"W1", "W2"}) {
         if (const int status = measure(name, time); status != 0) {
             return status;

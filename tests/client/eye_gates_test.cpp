@@ -2,36 +2,13 @@
 
 #include "client/view/eye_gates.h"
 
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-
-#include "client/view/window.h"
-#include "tests/support/window_driver.h"
-
-// Graphics drivers keep what they allocate: leaks are looked for in every other test.
-extern "C" const char* __asan_default_options();   // NOLINT(bugprone-reserved-identifier)
-extern "C" const char* __asan_default_options() {  // NOLINT(bugprone-reserved-identifier)
-    return "detect_leaks=0";
-}
+#include "tests/client/graphics_fixture.h"
 
 namespace shearwater::ui {
 namespace {
 
-class EyeGatesTest : public testing::Test {
+class EyeGatesTest : public GraphicsTest {
   protected:
-    void SetUp() override {
-        if (const std::string why = test::Display::unavailable(); !why.empty()) {
-            GTEST_SKIP() << why;
-        }
-        display_ = std::make_unique<test::Display>(640, 480);
-        setenv("DISPLAY", display_->name().c_str(), 1);
-        setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
-        auto window = Window::open({.width = 480, .height = 320, .scale = 1});
-        ASSERT_TRUE(window) << window.error().message();
-        window_ = *std::move(window);
-    }
-
     // Three squares: the left eye's in red, the right one's in blue, and one in green for both.
     void draw_pass() {
         window_->begin(0.01);
@@ -46,15 +23,12 @@ class EyeGatesTest : public testing::Test {
         square(200, IM_COL32(0, 0, 255, 255));
         EyeGates::both(list);
         square(300, IM_COL32(0, 255, 0, 255));
-        window_->draw();
+        window_->draw({.anyway = true});
     }
     static bool is_lit(const test::Picture& picture, int x) {
         const image::Rgba8& p = picture.at(x + 25, 125);
         return std::max({p.r, p.g, p.b}) > 200;
     }
-
-    std::unique_ptr<test::Display> display_;
-    std::unique_ptr<Window> window_;
 };
 
 TEST_F(EyeGatesTest, EachEyeSeesItsOwnAndWhatIsBoths) {
@@ -74,7 +48,7 @@ TEST_F(EyeGatesTest, EachEyeSeesItsOwnAndWhatIsBoths) {
 TEST_F(EyeGatesTest, ThePassAfterIsWhole) {
     window_->begin(0.01);
     window_->gates().only(*ImGui::GetBackgroundDrawList(), Eye::right);
-    window_->draw();
+    window_->draw({.anyway = true});
     draw_pass();
     const test::Picture left = window_->read_pixels();
     EXPECT_TRUE(is_lit(left, 100));

@@ -82,6 +82,23 @@ TEST_F(WindowTest, QualityFollowsTheCamera) {
     like(turned, "the view at rest, refined again");
 }
 
+// While a hand holds the mouse still the window looks for what it does thirty times a second.
+TEST_F(WindowTest, IsDrawnOnlyWhereSomethingChanges) {
+    start_tree();
+    const auto log = folder_ / "passes";
+    open_window({"--pass-log", log.string()});
+    settled([](const Picture& p) { return mark_of(p) == Mark::best; }, "the picture, refined");
+    display_->press(1, middle_x, middle_y);
+    std::this_thread::sleep_for(5s);
+    int second = 0, passes = 0, drawn = 0, pictures = 0;
+    std::ifstream lines(log);
+    while (lines >> second >> passes >> drawn >> pictures) {
+    }
+    display_->release(1);
+    EXPECT_GE(passes, 8) << "in second " << second;
+    EXPECT_LE(drawn, passes / 3) << "in second " << second;
+}
+
 TEST_F(WindowTest, ColoursAndOpacityChangeThePicture) {
     start_tree();
     open_window();

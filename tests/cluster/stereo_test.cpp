@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+
 #include "deploy/local_tree.h"
 #include "tests/support/cubes.h"
 #include "tests/support/pictures.h"
@@ -78,7 +81,11 @@ TEST_P(StereoTree, SendsBothEyesAsOneFrame) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Trees, StereoTree,
-                         testing::Values(std::pair{2, 2}, std::pair{2, 3}, std::pair{3, 2}));
+                         testing::Values(std::pair{2, 2}, std::pair{2, 3}, std::pair{3, 2}),
+                         [](const auto& tested) {
+                             return "Of" + std::to_string(tested.param.first) + "By" +
+                                    std::to_string(tested.param.second);
+                         });
 
 // A crop that is not of the cube ends the link with a reason, and nobody else's.
 TEST(CropOfAnotherCube, EndsTheLink) {

@@ -4,6 +4,8 @@
 
 #include <fstream>
 #include <iostream>
+#include <sstream>
+#include <string>
 
 #include "deploy/local_tree.h"
 #include "tests/support/cubes.h"
@@ -20,9 +22,11 @@ struct Case {
     int copies = 1;
 };
 
-void PrintTo(const Case& c, std::ostream* out) {
-    *out << c.branching << "," << c.levels << " over " << c.n[0] << "x" << c.n[1] << "x" << c.n[2] << " in "
-         << c.copies << " copies";
+std::string name_of(const Case& c) {
+    std::ostringstream name;
+    name << "Of" << c.branching << "By" << c.levels << "Over" << c.n[0] << "x" << c.n[1] << "x" << c.n[2]
+         << (c.copies == 2 ? "InTwoCopies" : "");
+    return name.str();
 }
 
 class EveryTree : public testing::TestWithParam<Case> {};
@@ -70,7 +74,8 @@ INSTANTIATE_TEST_SUITE_P(Trees, EveryTree,
                          testing::Values(Case{2, 2, {61, 47, 53}}, Case{2, 3, {37, 41, 43}},
                                          Case{2, 3, {37, 41, 43}, 2}, Case{2, 4, {47, 31, 29}},
                                          Case{3, 2, {31, 61, 37}}, Case{4, 2, {53, 29, 31}},
-                                         Case{5, 2, {23, 67, 33}}, Case{8, 2, {71, 19, 41}}));
+                                         Case{5, 2, {23, 67, 33}}, Case{8, 2, {71, 19, 41}}),
+                         [](const auto& tested) { return name_of(tested.param); });
 
 // Unequal shares, a compositor that is left out, 16 bits, a stretch and a spacing: still one picture.
 TEST(UnevenTree, GivesTheSamePicture) {

@@ -9,8 +9,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <thread>
 
 namespace shearwater::test {
@@ -35,7 +36,9 @@ bool on_path(const std::string& program) {
 
 std::string contents(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+    std::ostringstream text;
+    text << file.rdbuf();
+    return std::move(text).str();
 }
 
 // In the child, between fork and exec.
@@ -147,11 +150,13 @@ Picture Display::grab() const {
     Picture picture(static_cast<int>(width), static_cast<int>(height));
     std::size_t at = header + std::size_t{colours} * 12;
     for (int y = 0; y < picture.height(); ++y, at += pitch) {
-        for (std::size_t x = 0; x < width; ++x) {
+        const std::string_view row = std::string_view(dump).substr(at, 4 * std::size_t{width});
+        auto pixel = picture.row(y).begin();
+        for (std::size_t x = 0; x + 4 <= row.size(); x += 4) {
             const auto byte = [&](std::size_t i) {
-                return static_cast<std::uint8_t>(dump.at(at + 4 * x + (little_endian ? i : 3 - i)));
+                return static_cast<std::uint8_t>(row[x + (little_endian ? i : 3 - i)]);
             };
-            picture.row(y)[x] = {byte(2), byte(1), byte(0), 255};
+            *pixel++ = {byte(2), byte(1), byte(0), 255};
         }
     }
     return picture;
@@ -208,6 +213,10 @@ void Display::release(int button) {
 void Display::place_window(const std::string& title, int x, int y, int width, int height) {
     xdotool({"search", "--sync", "--name", title, "windowmove", std::to_string(x), std::to_string(y),
              "windowsize", std::to_string(width), std::to_string(height)});
+}
+
+void Display::hide_and_show(const std::string& title) {
+    xdotool({"search", "--sync", "--name", title, "windowunmap", "--sync", "windowmap", "--sync"});
 }
 
 void Display::click(int x, int y, int times, int button) {

@@ -70,6 +70,7 @@ class Display {
 
     // A window by words of its title, once it is there.
     void place_window(const std::string& title, int x, int y, int width, int height);
+    void hide_and_show(const std::string& title);
 
   private:
     void park();
