@@ -14,9 +14,9 @@ namespace {
 
 class Failures : public testing::Test {
   protected:
-    void start(int branching, int levels, const volume::Index3& n) {
+    void start(int branching, int levels, const volume::Index3& n, const std::string& sample = "nbody-web") {
         path_ = scratch_.path("cube.fits");
-        ASSERT_TRUE(samples::write_sample("nbody-web", n, 3, path_));
+        ASSERT_TRUE(samples::write_sample(sample, n, 3, path_));
         // Loaded before the client is there: while it loads nothing would answer the server's pings.
         expected_.emplace(path_,
                           volume::Mapping{.lo = 0, .hi = 2, .stretch = volume::Stretch::linear, .bits = 8});
@@ -127,7 +127,7 @@ TEST_F(Failures, AnOrderlyEndSaysGoodbye) {
 
 // Fifteen nodes, the server one of them: every daemon is killed in turn while a client keeps asking.
 TEST_F(Failures, FifteenNodesKilledOneByOneEndWhole) {
-    ASSERT_NO_FATAL_FAILURE(start(2, 4, {256, 256, 256}));
+    ASSERT_NO_FATAL_FAILURE(start(2, 4, {256, 256, 256}, "random"));
     ASSERT_EQ(tree_->daemon_ids().size(), 14U);
     const std::size_t daemons = tree_->daemon_ids().size();
     for (std::size_t i = 0; i < daemons; ++i) {
