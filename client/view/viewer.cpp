@@ -93,8 +93,8 @@ base::Status Viewer::run() {
         }
         if (drawn) {
             window_.show();
+            eye_windows_.show(desk);
         }
-        eye_windows_.show(desk);
         const bool has_new_picture = desk.picture_revision != shown_picture_;
         shown_picture_ = desk.picture_revision;
         if (auto counted = pass_log_.count({.drawn = drawn, .has_new_picture = has_new_picture}); !counted) {

@@ -155,6 +155,8 @@ GLFWwindow* Window::open_beside(const char* title, int width, int height) {
     if (beside != nullptr) {
         glfwSetWindowUserPointer(beside, this);
         glfwSetKeyCallback(beside, on_key);
+        glfwSetWindowRefreshCallback(beside, on_uncovered);
+        glfwSetFramebufferSizeCallback(beside, [](GLFWwindow* window, int, int) { on_uncovered(window); });
     }
     return beside;
 }

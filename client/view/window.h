@@ -58,8 +58,8 @@ class Window {
         bool for_each_eye = false;  // to the hidden buffer of each
         bool anyway = false;        // though it may be what is seen already
     };
-    // Draws the pass to the hidden buffer, to be seen after show(); false, and nothing is to be shown, where
-    // it would look like the last that was drawn.
+    // Draws the pass to the hidden buffer, to be seen after show(); false, and nothing is to be shown here or
+    // in a window beside, where it would look like the last that was drawn.
     bool draw(const Drawing& drawing);
     // Draws it as one eye sees it, to the buffer that is drawn to now.
     void draw_for(Eye eye);
@@ -67,7 +67,8 @@ class Window {
     void show();
 
     // A plain window that shares the textures of this one, and whose keys count as this one's; null where
-    // there can be none. It has to be closed before this one.
+    // there can be none. It has to be closed before this one. Once it is uncovered, or has another size, the
+    // next pass is drawn whatever it looks like.
     GLFWwindow* open_beside(const char* title, int width, int height);
     void close_beside(GLFWwindow* beside);
     // From another window's context back to this one's.
