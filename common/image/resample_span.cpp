@@ -148,6 +148,18 @@ HWY_INLINE void locate(const Window& window, Batch& b) {
     }
 }
 
+// False only if nothing is to be seen from one point of a track to another: between them i and j only rise or
+// only fall. These are not rounded as vectors are, which may make a cell's difference.
+HWY_INLINE bool may_be_lit(const Layer& layer, const Place& from, const Place& to) {
+    const auto cell = [](double at, int cells) HWY_ATTR {
+        return static_cast<int>(std::clamp(std::floor(at), -2.0, static_cast<double>(cells)));
+    };
+    const view::Face& face = layer.face();
+    const int i0 = cell(std::min(from.i, to.i), face.width), i1 = cell(std::max(from.i, to.i), face.width);
+    const int j0 = cell(std::min(from.j, to.j), face.height), j1 = cell(std::max(from.j, to.j), face.height);
+    return layer.any_lit(i0 - 1, j0 - 1, i1 + 1, j1 + 1);
+}
+
 std::size_t resample_span(const Layer& layer, const Track& track, int x0, std::span<RgbaF> out,
                           std::span<int> left) {
     // The way through the window may be down its columns, where the processor does not see what comes next.
@@ -158,12 +170,12 @@ std::size_t resample_span(const Layer& layer, const Track& track, int x0, std::s
     std::size_t left_over = 0;
     Batch b;
     for (std::size_t begin = 0; begin < out.size(); begin += batch) {
-        place(track, x0 + static_cast<double>(begin) + 0.5, layer.face(), b);
         const std::size_t count = std::min(batch, out.size() - begin);
-        // Along the track, i and j only rise or only fall.
-        if (!layer.any_lit(b.i[0], b.j[0], b.i[count - 1], b.j[count - 1])) {
+        const double first = x0 + static_cast<double>(begin) + 0.5;
+        if (!may_be_lit(layer, track.at(first), track.at(first + static_cast<double>(count - 1)))) {
             continue;
         }
+        place(track, first, layer.face(), b);
         locate(layer.window(), b);
         weigh(b.tx, b.weight_x);
         weigh(b.ty, b.weight_y);
