@@ -173,13 +173,9 @@ void Window::draw_here() {
 
 bool Window::draw(const Drawing& drawing) {
     ImGui::Render();
-    int width = 0, height = 0;
-    glfwGetFramebufferSize(window_, &width, &height);
     std::size_t drawn = likeness(*ImGui::GetDrawData());
-    for (const std::uint64_t of : {drawing.uploads, std::uint64_t{drawing.for_each_eye},
-                                   static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height)}) {
-        boost::hash_combine(drawn, of);
-    }
+    boost::hash_combine(drawn, drawing.uploads);
+    boost::hash_combine(drawn, drawing.for_each_eye);
     if (std::exchange(drawn_, drawn) == drawn && !drawing.anyway) {
         return false;
     }
