@@ -55,8 +55,18 @@ bool Tile<Code>::render(const Rect& rect) {
     rect_ = rect;
     begun_ = false;
     live_ = {0, 0, rect.width(), rect.height()};
-    // The slices of one layer of micro-bricks, or of the octants that pieces are of, go together, as many as
-    // a slab takes.
+    if (pieces_ == nullptr && voxels_.turns()) {
+        render_by_strips();
+    } else {
+        render_slices_between(0, plan_.slice_count());
+    }
+    return begun_;
+}
+
+// Of the face's slices [first, end), front to back, or of what the strip has of them: those of one layer of
+// micro-bricks, or of the octants that pieces are of, go together, as many as a slab takes.
+template <class Code>
+void Tile<Code>::render_slices_between(std::int64_t first, std::int64_t end) {
     std::array<Slice<Code>, Slab<Code>::max_slices> slices;
     std::array<std::int64_t, Slab<Code>::max_slices> numbers;
     std::size_t count = 0;
@@ -69,7 +79,7 @@ bool Tile<Code>::render(const Rect& rect) {
         }
         count = 0;
     };
-    for (std::int64_t n = 0; n < plan_.slice_count(); ++n) {
+    for (std::int64_t n = first; n < end; ++n) {
         const std::int64_t k = plan_.slice(n);
         const std::int64_t layer_of_k =
             pieces_ != nullptr ? layer_of<CodeVolume::octant_edge>(k) : layer_of<CodeVolume::micro_edge>(k);
@@ -78,10 +88,10 @@ bool Tile<Code>::render(const Rect& rect) {
         }
         if (count == slices.size() || layer_of_k != layer) {
             flush();
-            if (layer_of_k != layer && begun_) {
+            if (layer_of_k != layer && begun_ && strip_ == nullptr) {
                 narrow_live();
                 if (live_.empty()) {
-                    return true;
+                    return;
                 }
             }
         }
@@ -93,7 +103,6 @@ bool Tile<Code>::render(const Rect& rect) {
         }
     }
     flush();
-    return begun_;
 }
 
 // The cell behind the slice.
@@ -122,21 +131,34 @@ std::array<MicroRun, 2> Tile<Code>::runs_of(const VoxelRegion& region, std::int6
     return {run(0, plan_.fast_axis()), run(1, plan_.slow_axis())};
 }
 
-// With the pixels of the tile that the sub-volume owns on it and that have light left, counted from the
-// tile's first; its voxels are found later.
+// With the pixels of the tile, or of the strip, that the sub-volume owns on it and that have light left,
+// counted from the tile's first; its voxels are found later.
 template <class Code>
 Slice<Code> Tile<Code>::slice_of(std::int64_t k) const {
     const SlicePlan& plan = plan_.slice_plan(k);
     const Rect owned{plan.owned.x0 - rect_.x0, plan.owned.y0 - rect_.y0, plan.owned.x1 - rect_.x0,
                      plan.owned.y1 - rect_.y0};
-    return {.voxels = nullptr,
-            .next = nullptr,
-            .fast_offset = plan.map.u_offset,
-            .fast_scale = plan.map.u_scale,
-            .slow_offset = plan.map.v_offset,
-            .slow_scale = plan.map.v_scale,
-            .pixels = intersection(live_, owned),
-            .lengths = nullptr};
+    Slice<Code> slice{.voxels = nullptr,
+                      .next = nullptr,
+                      .fast_offset = plan.map.u_offset,
+                      .fast_scale = plan.map.u_scale,
+                      .slow_offset = plan.map.v_offset,
+                      .slow_scale = plan.map.v_scale,
+                      .pixels = intersection(live_, owned),
+                      .lengths = nullptr};
+    if (strip_ != nullptr) {
+        const PixelRange rows = rows_within(slice, strip_->voxels);
+        slice.pixels.y0 = rows.first;
+        slice.pixels.y1 = rows.last;
+    }
+    return slice;
+}
+
+// The pixels of a slice whose samples lie in a run of voxels along the slow axis.
+template <class Code>
+PixelRange Tile<Code>::rows_within(const Slice<Code>& slice, const OpenRun& voxels) const {
+    return pixels_within({slice.pixels.y0, slice.pixels.y1}, slice.slow_offset + slice.slow_scale * rect_.y0,
+                         slice.slow_scale, voxels);
 }
 
 // Slices that lie in one layer of micro-bricks, each with some pixels.
@@ -238,9 +260,7 @@ void Tile<Code>::add_within(const OpenRun& fast, const OpenRun& slow, const Slic
     const PixelRange columns =
         pixels_within({slice.pixels.x0, slice.pixels.x1}, slice.fast_offset + slice.fast_scale * rect_.x0,
                       slice.fast_scale, fast);
-    const PixelRange rows =
-        pixels_within({slice.pixels.y0, slice.pixels.y1}, slice.slow_offset + slice.slow_scale * rect_.y0,
-                      slice.slow_scale, slow);
+    const PixelRange rows = rows_within(slice, slow);
     if (!columns.empty() && !rows.empty()) {
         part.slices[part.count] = slice;
         part.slices[part.count].pixels = {columns.first, rows.first, columns.last, rows.last};
@@ -281,9 +301,10 @@ bool Tile<Code>::composite(Slices slices, std::span<const std::int64_t> numbers,
 template <class Code>
 Slab<Code> Tile<Code>::slab_of(Slices slices, std::span<const std::int64_t> numbers,
                                const VoxelRegion& region, Visit visit, bool whole) {
-    const auto place = whole ? voxels_.find(region, block_of(region)) : voxels_.find(region, {});
+    const bool turns = voxels_.turns();
+    const auto place = voxels_.find(region, whole && turns ? turned_with(region) : std::span<VoxelRegion>());
     Slab<Code> slab = slab_at(slices, numbers, region, visit, place);
-    if (whole && !voxels_.turns()) {
+    if (whole && !turns) {
         slab.ahead = voxels_.ahead(behind(region));
     }
     return slab;

@@ -76,9 +76,19 @@ class Tile {
         std::array<std::int64_t, Slab<Code>::max_slices> numbers;
         std::size_t count = 0;
     };
-    using Block = std::array<VoxelRegion, 4>;  // parts of what is turned together
+    // Where voxels are turned, what lies in a few rows of them is drawn before the next rows are turned, so
+    // that the second cache holds both: a run of voxels along the slow axis, of as many planes as lie in a
+    // line of the cache. Samples beyond the first run and the last are those runs'.
+    struct Strip {
+        OpenRun voxels;
+        std::int64_t first, last;  // nodes that its samples lie between
+        double distance;           // as micro_layer.h has it
+    };
     class Segments;
 
+    void render_slices_between(std::int64_t first, std::int64_t end);
+    void render_by_strips();
+    void find_strips(std::int64_t first, std::int64_t end);
     void begin_rays();
     std::int64_t cell_of(std::int64_t k) const;
     template <std::int64_t edge>
@@ -92,6 +102,7 @@ class Tile {
                  const MicroRun& fast, const MicroRun& slow) const;
     Part part_of(Slices slices, std::span<const std::int64_t> numbers,
                  const typename SparsePieces<Code>::Copied& copied, const VoxelRegion& nodes) const;
+    view::PixelRange rows_within(const Slice<Code>& slice, const OpenRun& voxels) const;
     void add_within(const OpenRun& fast, const OpenRun& slow, const Slice<Code>& slice, std::int64_t number,
                     Part& part) const;
     void render_sparse(Slices slices, std::span<const std::int64_t> numbers);
@@ -112,7 +123,7 @@ class Tile {
     VoxelRegion region_of(const MicroRun& fast, const MicroRun& slow,
                           std::span<const std::int64_t> numbers) const;
     VoxelRegion between_planes(std::int64_t lo, std::int64_t hi) const;
-    Block block_of(const VoxelRegion& region) const;
+    std::span<const VoxelRegion> turned_with(const VoxelRegion& region);
     VoxelRegion behind(const VoxelRegion& region) const;
     void note_met(const VoxelRegion& region);
     const float* lengths_on(std::int64_t k, const view::Rect& pixels, std::size_t n);
@@ -145,8 +156,11 @@ class Tile {
     BricksMet& met_;
     TileVoxels<Code> voxels_;
     view::Rect rect_;
-    bool begun_ = false;  // whether some ray may have met something
-    view::Rect live_;     // about the rays that are not done, counted from the tile's first
+    bool begun_ = false;               // whether some ray may have met something
+    view::Rect live_;                  // about the rays that are not done, counted from the tile's first
+    std::vector<Strip> strips_;        // of the planes that are drawn, front to back
+    const Strip* strip_ = nullptr;     // that is drawn, if there are
+    std::vector<VoxelRegion> turned_;  // of it, kept for its memory
     bool between_nodes_ = true, faint_ = false;
     std::uint64_t samples_ = 0;
     std::unique_ptr<Planes> planes_;

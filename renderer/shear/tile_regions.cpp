@@ -114,25 +114,6 @@ VoxelRegion Tile<Code>::between_planes(std::int64_t lo, std::int64_t hi) const {
     return region;
 }
 
-// What the tile needs of the planes about a region, up to whole blocks of them: what is turned together, as
-// much as lies in a line of the cache, in parts, for rays move on sideways. What begins in a part may end on
-// a plane behind it.
-template <class Code>
-typename Tile<Code>::Block Tile<Code>::block_of(const VoxelRegion& region) const {
-    constexpr std::int64_t edge = 2 * CodeVolume::micro_edge;
-    constexpr std::int64_t planes = edge * static_cast<std::int64_t>(std::tuple_size_v<Block>);
-    const auto axis = static_cast<std::size_t>(plan_.face().axis);
-    const std::int64_t last = edge - (classification_.segments || !plan_.on_planes() ? 0 : 1);
-    const auto clamped = [&](std::int64_t w) { return std::clamp(w, nodes_.lo[axis], nodes_.hi[axis]); };
-    std::int64_t lo = region.lo[2] / planes * planes;
-    Block block;
-    for (VoxelRegion& part : block) {
-        part = between_planes(clamped(lo), clamped(lo + last));
-        lo += edge;
-    }
-    return block;
-}
-
 // What the tile will need and may fetch meanwhile: of the planes behind a region's, as many again.
 template <class Code>
 VoxelRegion Tile<Code>::behind(const VoxelRegion& region) const {
@@ -148,7 +129,6 @@ template VoxelRegion Tile<std::uint8_t>::region_of(Slices, std::span<const std::
 template VoxelRegion Tile<std::uint8_t>::region_of(const MicroRun&, const MicroRun&,
                                                    std::span<const std::int64_t>) const;
 template VoxelRegion Tile<std::uint8_t>::between_planes(std::int64_t, std::int64_t) const;
-template Tile<std::uint8_t>::Block Tile<std::uint8_t>::block_of(const VoxelRegion&) const;
 template VoxelRegion Tile<std::uint8_t>::behind(const VoxelRegion&) const;
 template VoxelRegion Tile<std::uint16_t>::nodes_of(const volume::Box&) const;
 template VoxelRegion Tile<std::uint16_t>::region_of(Slices, std::span<const std::int64_t>,
@@ -156,7 +136,6 @@ template VoxelRegion Tile<std::uint16_t>::region_of(Slices, std::span<const std:
 template VoxelRegion Tile<std::uint16_t>::region_of(const MicroRun&, const MicroRun&,
                                                     std::span<const std::int64_t>) const;
 template VoxelRegion Tile<std::uint16_t>::between_planes(std::int64_t, std::int64_t) const;
-template Tile<std::uint16_t>::Block Tile<std::uint16_t>::block_of(const VoxelRegion&) const;
 template VoxelRegion Tile<std::uint16_t>::behind(const VoxelRegion&) const;
 
 }  // namespace shearwater::shear

@@ -42,9 +42,7 @@ VoxelPlace<Code> TileVoxels<Code>::find(const VoxelRegion& region, std::span<con
     if (std::ranges::none_of(copied_, [&](const VoxelRegion& part) { return part.contains(region); })) {
         turn(region, more);
     }
-    const std::ptrdiff_t offset = (region.lo[0] - whole_.lo[0]) + (region.lo[1] - whole_.lo[1]) * row_ +
-                                  (region.lo[2] - whole_.lo[2]) * plane_;
-    return {&copy_[static_cast<std::size_t>(offset)], row_, plane_};
+    return {copy() + place_of(region.lo[0], region.lo[1], region.lo[2]), row_, plane_};
 }
 
 template <class Code>
@@ -84,26 +82,31 @@ void TileVoxels<Code>::turn(const VoxelRegion& region, std::span<const VoxelRegi
     for (const VoxelRegion& part : copied_) {
         whole_.add(part);
     }
-    const auto count = [&](std::size_t n) { return whole_.hi[n] - whole_.lo[n] + 1; };
-    // Whole blocks are written: there has to be room for the last of them, along both axes. What planes have
-    // at one place is written together: an odd number of blocks keeps it apart in the caches.
+    // Rows begin where lines of the cache do. What planes have at one place is written together: an odd
+    // number of lines keeps it apart in the caches. Whole blocks are written: there has to be room for the
+    // last of them, along both axes.
     constexpr std::int64_t block = 16;
-    row_ = ((count(0) + 2 * block - 1) / block | 1) * block;
-    plane_ = row_ * (count(1) + 1);
-    const auto needed = static_cast<std::size_t>(plane_ * (count(2) + block)) + voxel_padding;
+    constexpr std::int64_t line = cache_line / static_cast<std::int64_t>(sizeof(Code));
+    const auto whole = [](std::int64_t codes, std::int64_t of) { return (codes + of - 1) / of * of; };
+    row_ = whole(whole_.count(0) + block, line);
+    plane_ = (row_ / line * whole_.count(1) | 1) * line;
+    const auto needed =
+        static_cast<std::size_t>(plane_ / line * (whole_.count(2) + block)) + voxel_padding / cache_line;
     if (copy_.size() < needed) {
         copy_.resize(needed);
     }
     for (std::int64_t v = whole_.lo[1]; v <= whole_.hi[1]; ++v) {
-        const VoxelRegion wanted = wanted_of_plane(v);
-        const auto [f0, w0] = std::pair(wanted.lo[0], wanted.lo[2]);
+        // From block to block, as far as there are codes.
+        VoxelRegion wanted = wanted_of_plane(v);
+        const std::int64_t f0 = wanted.lo[0] -= (wanted.lo[0] - whole_.lo[0]) % block;
+        const std::int64_t w0 = wanted.lo[2];
+        const std::int64_t rows = std::min(whole(wanted.count(0), block), codes_.box().hi[1] - f0 + 1);
         shear::turn(Matrix<Code>{.first = code_at({w0, f0, v}),
                                  .row_stride = codes_.stride(1),
-                                 .columns = static_cast<int>(wanted.hi[2] - w0 + 1),
-                                 .rows = static_cast<int>(wanted.hi[0] - f0 + 1)},
-                    &copy_[static_cast<std::size_t>((f0 - whole_.lo[0]) + (v - whole_.lo[1]) * row_ +
-                                                    (w0 - whole_.lo[2]) * plane_)],
-                    plane_, v < whole_.hi[1] ? ahead(wanted_of_plane(v + 1)) : Ahead{});
+                                 .columns = static_cast<int>(wanted.count(2)),
+                                 .rows = static_cast<int>(rows)},
+                    copy() + place_of(f0, v, w0), plane_,
+                    v < whole_.hi[1] ? ahead(wanted_of_plane(v + 1)) : Ahead{});
     }
 }
 

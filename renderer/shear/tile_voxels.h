@@ -3,6 +3,7 @@
 // its voxels are adjacent along that axis, in a copy that is turned so that they are along the fast one.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -35,6 +36,10 @@ class TileVoxels {
     Ahead ahead(const VoxelRegion& region) const { return ahead_of<Code>(codes_, axes_, region); }
 
   private:
+    struct alignas(cache_line) Line {
+        std::array<std::byte, cache_line> bytes;
+    };
+
     void turn(const VoxelRegion& region, std::span<const VoxelRegion> more);
     VoxelRegion wanted_of_plane(std::int64_t v) const;
 
@@ -42,9 +47,15 @@ class TileVoxels {
         return &codes_.codes<Code>()[codes_.offset(node)];
     }
 
+    Code* copy() { return reinterpret_cast<Code*>(copy_.data()); }
+    // Of a node in it, along the fast, the slow and the principal axis.
+    std::ptrdiff_t place_of(std::int64_t f, std::int64_t v, std::int64_t w) const {
+        return (f - whole_.lo[0]) + (v - whole_.lo[1]) * row_ + (w - whole_.lo[2]) * plane_;
+    }
+
     const CodeArray& codes_;
     std::array<int, 3> axes_;
-    std::vector<Code> copy_;
+    std::vector<Line> copy_;
     std::vector<VoxelRegion> copied_;
     VoxelRegion whole_{};                 // about them, as the copy is laid out
     std::ptrdiff_t row_ = 0, plane_ = 0;  // of the copy
