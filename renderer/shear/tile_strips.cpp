@@ -14,7 +14,7 @@ namespace shearwater::shear {
 namespace {
 
 constexpr std::int64_t planes_of_a_strip = 64;
-constexpr std::int64_t rows_of_a_strip = 32;
+constexpr std::int64_t rows_of_a_strip = 48;
 // Rays move on sideways: what is turned for so many planes is found for each of them.
 constexpr std::int64_t planes_of_a_part = 16;
 
