@@ -74,7 +74,8 @@ void Tile<Code>::render_slices_between(std::int64_t first, std::int64_t end) {
     const auto flush = [&] {
         const auto taken = Slices(slices).first(count);
         const auto numbers_taken = std::span<const std::int64_t>(numbers).first(count);
-        if (count > 0) {
+        // Strips of a tile end apart from one another.
+        if (count > 0 && (strip_ == nullptr || !begun_ || any_live(taken))) {
             pieces_ != nullptr ? render_sparse(taken, numbers_taken) : render_slices(taken, numbers_taken);
         }
         count = 0;
@@ -88,7 +89,7 @@ void Tile<Code>::render_slices_between(std::int64_t first, std::int64_t end) {
         }
         if (count == slices.size() || layer_of_k != layer) {
             flush();
-            if (layer_of_k != layer && begun_ && strip_ == nullptr) {
+            if (layer_of_k != layer && begun_) {
                 narrow_live();
                 if (live_.empty()) {
                     return;

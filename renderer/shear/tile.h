@@ -140,6 +140,7 @@ class Tile {
     }
     void store_row(int j, const view::Rgb* one_hue, image::Window& window, int x0, int y);
     void narrow_live();
+    bool any_live(Slices slices) const;
     Rays rays();
     std::size_t slot(int i, int j) const {
         return static_cast<std::size_t>((j - rect_.y0) * stride + i - rect_.x0);

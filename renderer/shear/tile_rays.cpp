@@ -76,6 +76,24 @@ void Tile<Code>::narrow_live() {
     }
 }
 
+// Whether some ray through pixels of the slices is not done.
+template <class Code>
+bool Tile<Code>::any_live(Slices slices) const {
+    Rect pixels = slices.front().pixels;
+    for (const Slice<Code>& slice : slices) {
+        pixels = bounding(pixels, slice.pixels);
+    }
+    const float done = plan_.opaque();
+    for (int j = pixels.y0; j < pixels.y1; ++j) {
+        const float* const a = &planes_->a[static_cast<std::size_t>(j * stride)];
+        // All of a row, for which vectors will do.
+        if (std::count_if(a + pixels.x0, a + pixels.x1, [done](float of) { return of < done; }) > 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 template <class Code>
 Rays Tile<Code>::rays() {
     return {.r = planes_->r.data(),
@@ -200,6 +218,7 @@ void Tile<Code>::store(image::Window& window) {
 
 template void Tile<std::uint8_t>::begin_rays();
 template void Tile<std::uint8_t>::narrow_live();
+template bool Tile<std::uint8_t>::any_live(Slices) const;
 template Rays Tile<std::uint8_t>::rays();
 template const float* Tile<std::uint8_t>::lengths_on(std::int64_t, const Rect&, std::size_t);
 template void Tile<std::uint8_t>::copy_steps(const Rect&, Plane&) const;
@@ -207,6 +226,7 @@ template void Tile<std::uint8_t>::store_row(int, const view::Rgb*, image::Window
 template void Tile<std::uint8_t>::store(image::Window&);
 template void Tile<std::uint16_t>::begin_rays();
 template void Tile<std::uint16_t>::narrow_live();
+template bool Tile<std::uint16_t>::any_live(Slices) const;
 template Rays Tile<std::uint16_t>::rays();
 template const float* Tile<std::uint16_t>::lengths_on(std::int64_t, const Rect&, std::size_t);
 template void Tile<std::uint16_t>::copy_steps(const Rect&, Plane&) const;

@@ -35,9 +35,6 @@ void Tile<Code>::render_by_strips() {
             render_slices_between(first, end);
         }
         strip_ = nullptr;
-        if (begun_) {
-            narrow_live();
-        }
     }
 }
 
