@@ -303,7 +303,11 @@ template <class Code>
 Slab<Code> Tile<Code>::slab_of(Slices slices, std::span<const std::int64_t> numbers,
                                const VoxelRegion& region, Visit visit, bool whole) {
     const bool turns = voxels_.turns();
-    const auto place = voxels_.find(region, whole && turns ? turned_with(region) : std::span<VoxelRegion>());
+    std::span<const VoxelRegion> more;
+    if (whole && turns && !voxels_.has(region)) {
+        more = turned_with(region);
+    }
+    const auto place = voxels_.find(region, more);
     Slab<Code> slab = slab_at(slices, numbers, region, visit, place);
     if (whole && !turns) {
         slab.ahead = voxels_.ahead(behind(region));

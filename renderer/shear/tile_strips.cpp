@@ -14,7 +14,9 @@ namespace shearwater::shear {
 namespace {
 
 constexpr std::int64_t planes_of_a_strip = 64;
-constexpr std::int64_t rows_of_a_strip = 48;
+// As many bytes of voxels either way.
+template <class Code>
+constexpr std::int64_t rows_of_a_strip = 48 / static_cast<std::int64_t>(sizeof(Code));
 // Rays move on sideways: what is turned for so many planes is found for each of them.
 constexpr std::int64_t planes_of_a_part = 16;
 
@@ -49,7 +51,7 @@ void Tile<Code>::find_strips(std::int64_t first, std::int64_t end) {
     const auto [near, far] = std::minmax({plane_at(first), plane_at(end - 1)});
     const VoxelRegion all = between_planes(near, std::min(far + 1, nodes_.hi[axis]));
     const MicroRun bricks = runs_of(all, CodeVolume::micro_edge)[1];
-    constexpr std::int64_t step = rows_of_a_strip / CodeVolume::micro_edge;
+    constexpr std::int64_t step = rows_of_a_strip<Code> / CodeVolume::micro_edge;
     // What begins at a strip's border may end on a node beyond.
     const std::int64_t beyond = classification_.segments ? 1 : 0;
     const auto node_of = [&, of = codes_.micro_bricks().first(plan_.slow_axis())](std::int64_t brick) {

@@ -31,6 +31,11 @@ TileVoxels<Code>::TileVoxels(const CodeVolume& volume, const FacePlan& plan)
       axes_{plan.fast_axis(), plan.slow_axis(), plan.face().axis} {}
 
 template <class Code>
+bool TileVoxels<Code>::has(const VoxelRegion& region) const {
+    return std::ranges::any_of(copied_, [&](const VoxelRegion& part) { return part.contains(region); });
+}
+
+template <class Code>
 VoxelPlace<Code> TileVoxels<Code>::find(const VoxelRegion& region, std::span<const VoxelRegion> more) {
     if (!turns()) {
         volume::Index3 at;
@@ -39,7 +44,7 @@ VoxelPlace<Code> TileVoxels<Code>::find(const VoxelRegion& region, std::span<con
         }
         return {code_at(at), codes_.stride(axes_[1]), codes_.stride(axes_[2])};
     }
-    if (std::ranges::none_of(copied_, [&](const VoxelRegion& part) { return part.contains(region); })) {
+    if (!has(region)) {
         turn(region, more);
     }
     return {copy() + place_of(region.lo[0], region.lo[1], region.lo[2]), row_, plane_};

@@ -30,6 +30,8 @@ class TileVoxels {
     static bool turns(const CodeArray& codes, int principal_axis) {
         return codes.adjacent_axis() == principal_axis;
     }
+    // Whether a region is turned already.
+    bool has(const VoxelRegion& region) const;
     // `more` is what may be asked for next: where voxels have to be turned, all of it is.
     VoxelPlace<Code> find(const VoxelRegion& region, std::span<const VoxelRegion> more);
     // What of the volume a region will take to find.

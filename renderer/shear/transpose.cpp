@@ -14,46 +14,58 @@ HWY_BEFORE_NAMESPACE();
 namespace shearwater::shear::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr int side = 16;
+// Codes of 16 bytes: the rows and columns of a block.
+template <class Code>
+constexpr int side_of = 16 / static_cast<int>(sizeof(Code));
+constexpr int side = side_of<std::uint8_t>;
 
 #if HWY_TARGET == HWY_SCALAR
-HWY_INLINE void turn_block(const std::uint8_t* from, std::ptrdiff_t stride, int rows, std::uint8_t* to,
+template <class Code>
+HWY_INLINE void turn_block(const Code* from, std::ptrdiff_t stride, int rows, Code* to,
                            std::ptrdiff_t to_stride) {
     for (int i = 0; i < rows; ++i) {
-        for (int j = 0; j < side; ++j) {
+        for (int j = 0; j < side_of<Code>; ++j) {
             to[j * to_stride + i] = from[i * stride + j];
         }
     }
 }
 #else
-// In every 16 bytes of 16 vectors rows become columns. Four times vectors n and n + 8 are interleaved into 2
-// n and 2 n + 1.
+// In every 16 bytes of as many vectors as they have codes rows become columns: each time the first half of
+// the vectors is interleaved with the other, the pairs one after the other.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE void turn_vectors(D d, V* a) {
-    V b[side];
+    constexpr int vectors = side_of<hn::TFromD<D>>;
+    V b[vectors];
     const auto interleave = [&](const V* in, V* out) HWY_ATTR {
-        for (int i = 0; i < side / 2; ++i) {
-            out[2 * i] = hn::InterleaveLower(d, in[i], in[i + side / 2]);
-            out[2 * i + 1] = hn::InterleaveUpper(d, in[i], in[i + side / 2]);
+        for (int i = 0; i < vectors / 2; ++i) {
+            out[2 * i] = hn::InterleaveLower(d, in[i], in[i + vectors / 2]);
+            out[2 * i + 1] = hn::InterleaveUpper(d, in[i], in[i + vectors / 2]);
         }
     };
     interleave(a, b);
     interleave(b, a);
     interleave(a, b);
-    interleave(b, a);
+    if constexpr (vectors == 16) {
+        interleave(b, a);
+    } else {
+        static_assert(vectors == 8);
+        std::copy_n(b, vectors, a);
+    }
 }
 
-// Up to 16 rows of 16 bytes become 16 columns.
-HWY_INLINE void turn_block(const std::uint8_t* from, std::ptrdiff_t stride, int rows, std::uint8_t* to,
+// Rows of 16 bytes, up to as many as have whole blocks, become columns.
+template <class Code>
+HWY_INLINE void turn_block(const Code* from, std::ptrdiff_t stride, int rows, Code* to,
                            std::ptrdiff_t to_stride) {
-    const hn::FixedTag<std::uint8_t, side> d;
+    constexpr int vectors = side_of<Code>;
+    const hn::FixedTag<Code, vectors> d;
     using V = hn::Vec<decltype(d)>;
-    V a[side];
-    for (int i = 0; i < side; ++i) {
+    V a[vectors];
+    for (int i = 0; i < vectors; ++i) {
         a[i] = i < rows ? hn::LoadU(d, from + i * stride) : hn::Zero(d);
     }
     turn_vectors(d, a);
-    for (int i = 0; i < side; ++i) {
+    for (int i = 0; i < vectors; ++i) {
         hn::StoreU(a[i], d, to + i * to_stride);
     }
 }
@@ -177,6 +189,20 @@ void turn_8(const Matrix<std::uint8_t>& from, std::uint8_t* to, std::ptrdiff_t c
     }
 }
 
+void turn_16(const Matrix<std::uint16_t>& from, std::uint16_t* to, std::ptrdiff_t column_stride,
+             const Ahead& ahead) {
+    constexpr int edge = side_of<std::uint16_t>;
+    const auto blocks = [](int count) { return (count + edge - 1) / edge; };
+    Fetching fetching(ahead, blocks(from.rows) * blocks(from.columns));
+    for (int column = 0; column < from.columns; column += edge) {
+        for (int row = 0; row < from.rows; row += edge) {
+            fetching.step<Into::second>();
+            turn_block(from.first + row * from.row_stride + column, from.row_stride, from.rows - row,
+                       to + column * column_stride + row, column_stride);
+        }
+    }
+}
+
 }  // namespace shearwater::shear::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -184,6 +210,7 @@ HWY_AFTER_NAMESPACE();
 namespace shearwater::shear {
 
 HWY_EXPORT(turn_8);
+HWY_EXPORT(turn_16);
 
 template <>
 void turn(const Matrix<std::uint8_t>& from, std::uint8_t* to, std::ptrdiff_t column_stride,
@@ -194,14 +221,7 @@ void turn(const Matrix<std::uint8_t>& from, std::uint8_t* to, std::ptrdiff_t col
 template <>
 void turn(const Matrix<std::uint16_t>& from, std::uint16_t* to, std::ptrdiff_t column_stride,
           const Ahead& ahead) {
-    Fetching fetching(ahead, from.rows);
-    for (int row = 0; row < from.rows; ++row) {
-        fetching.step<Into::second>();
-        const std::uint16_t* const codes = from.first + row * from.row_stride;
-        for (int column = 0; column < from.columns; ++column) {
-            to[column * column_stride + row] = codes[column];
-        }
-    }
+    HWY_DYNAMIC_DISPATCH(turn_16)(from, to, column_stride, ahead);
 }
 
 }  // namespace shearwater::shear
