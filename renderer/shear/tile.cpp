@@ -89,7 +89,7 @@ void Tile<Code>::render_slices_between(std::int64_t first, std::int64_t end) {
         }
         if (count == slices.size() || layer_of_k != layer) {
             flush();
-            if (layer_of_k != layer && begun_) {
+            if (layer_of_k != layer && begun_ && strip_ == nullptr) {
                 narrow_live();
                 if (live_.empty()) {
                     return;

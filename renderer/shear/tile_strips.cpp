@@ -35,6 +35,9 @@ void Tile<Code>::render_by_strips() {
         for (const Strip& strip : strips_) {
             strip_ = &strip;
             render_slices_between(first, end);
+            if (begun_) {
+                narrow_live();
+            }
         }
         strip_ = nullptr;
     }
