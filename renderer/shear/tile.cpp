@@ -302,14 +302,11 @@ bool Tile<Code>::composite(Slices slices, std::span<const std::int64_t> numbers,
 template <class Code>
 Slab<Code> Tile<Code>::slab_of(Slices slices, std::span<const std::int64_t> numbers,
                                const VoxelRegion& region, Visit visit, bool whole) {
-    const bool turns = voxels_.turns();
-    std::span<const VoxelRegion> more;
-    if (whole && turns && !voxels_.has(region)) {
-        more = turned_with(region);
+    if (!voxels_.has(region)) {
+        voxels_.turn(region, whole ? turned_with(region) : std::span<const VoxelRegion>());
     }
-    const auto place = voxels_.find(region, more);
-    Slab<Code> slab = slab_at(slices, numbers, region, visit, place);
-    if (whole && !turns) {
+    Slab<Code> slab = slab_at(slices, numbers, region, visit, voxels_.find(region));
+    if (whole && !voxels_.turns()) {
         slab.ahead = voxels_.ahead(behind(region));
     }
     return slab;

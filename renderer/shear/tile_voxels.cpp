@@ -32,20 +32,18 @@ TileVoxels<Code>::TileVoxels(const CodeVolume& volume, const FacePlan& plan)
 
 template <class Code>
 bool TileVoxels<Code>::has(const VoxelRegion& region) const {
-    return std::ranges::any_of(copied_, [&](const VoxelRegion& part) { return part.contains(region); });
+    return !turns() ||
+           std::ranges::any_of(copied_, [&](const VoxelRegion& part) { return part.contains(region); });
 }
 
 template <class Code>
-VoxelPlace<Code> TileVoxels<Code>::find(const VoxelRegion& region, std::span<const VoxelRegion> more) {
+VoxelPlace<Code> TileVoxels<Code>::find(const VoxelRegion& region) const {
     if (!turns()) {
         volume::Index3 at;
         for (std::size_t n = 0; n < 3; ++n) {
             at[static_cast<std::size_t>(axes_[n])] = region.lo[n];
         }
         return {code_at(at), codes_.stride(axes_[1]), codes_.stride(axes_[2])};
-    }
-    if (!has(region)) {
-        turn(region, more);
     }
     return {copy() + place_of(region.lo[0], region.lo[1], region.lo[2]), row_, plane_};
 }
@@ -103,8 +101,8 @@ void TileVoxels<Code>::turn(const VoxelRegion& region, std::span<const VoxelRegi
     for (std::int64_t v = whole_.lo[1]; v <= whole_.hi[1]; ++v) {
         // From block to block, as far as there are codes.
         VoxelRegion wanted = wanted_of_plane(v);
-        const std::int64_t f0 = wanted.lo[0] -= (wanted.lo[0] - whole_.lo[0]) % block;
-        const std::int64_t w0 = wanted.lo[2];
+        wanted.lo[0] -= (wanted.lo[0] - whole_.lo[0]) % block;
+        const auto [f0, w0] = std::pair(wanted.lo[0], wanted.lo[2]);
         const std::int64_t rows = std::min(whole(wanted.count(0), block), codes_.box().hi[1] - f0 + 1);
         shear::turn(Matrix<Code>{.first = code_at({w0, f0, v}),
                                  .row_stride = codes_.stride(1),

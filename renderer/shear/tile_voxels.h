@@ -30,10 +30,11 @@ class TileVoxels {
     static bool turns(const CodeArray& codes, int principal_axis) {
         return codes.adjacent_axis() == principal_axis;
     }
-    // Whether a region is turned already.
+    // Whether a region can be found: where voxels have to be turned, it has to be before.
     bool has(const VoxelRegion& region) const;
-    // `more` is what may be asked for next: where voxels have to be turned, all of it is.
-    VoxelPlace<Code> find(const VoxelRegion& region, std::span<const VoxelRegion> more);
+    // `more` is what may be asked for next.
+    void turn(const VoxelRegion& region, std::span<const VoxelRegion> more);
+    VoxelPlace<Code> find(const VoxelRegion& region) const;
     // What of the volume a region will take to find.
     Ahead ahead(const VoxelRegion& region) const { return ahead_of<Code>(codes_, axes_, region); }
 
@@ -42,7 +43,6 @@ class TileVoxels {
         std::array<std::byte, cache_line> bytes;
     };
 
-    void turn(const VoxelRegion& region, std::span<const VoxelRegion> more);
     VoxelRegion wanted_of_plane(std::int64_t v) const;
 
     const Code* code_at(const volume::Index3& node) const {
@@ -50,6 +50,7 @@ class TileVoxels {
     }
 
     Code* copy() { return reinterpret_cast<Code*>(copy_.data()); }
+    const Code* copy() const { return reinterpret_cast<const Code*>(copy_.data()); }
     // Of a node in it, along the fast, the slow and the principal axis.
     std::ptrdiff_t place_of(std::int64_t f, std::int64_t v, std::int64_t w) const {
         return (f - whole_.lo[0]) + (v - whole_.lo[1]) * row_ + (w - whole_.lo[2]) * plane_;
