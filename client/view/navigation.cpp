@@ -98,8 +98,7 @@ void navigate_by_mouse(Desk& desk, const std::vector<EyeArea>& areas, ImVec2 fro
         return;
     }
     const Place place = place_of_mouse(desk, areas);
-    // In the pass that presses the button the mouse may have come from afar.
-    if (ImGui::IsItemActive() && !ImGui::IsItemActivated()) {
+    if (ImGui::IsItemActive()) {
         drag(desk, place);
     }
     if (!ImGui::IsItemHovered()) {

@@ -68,7 +68,10 @@ Window::Window(GLFWwindow* window, float scale, bool has_quad_buffers)
     ImGui::GetIO().IniFilename = nullptr;
     fonts_ = theme::apply(scale_);
     glfwSetWindowUserPointer(window_, this);
-    glfwSetKeyCallback(window_, on_key);  // ImGui's, set now, calls it too
+    // ImGui's, set below, call them too.
+    glfwSetKeyCallback(window_, on_key);
+    glfwSetMouseButtonCallback(window_, on_button);
+    glfwSetCursorPosCallback(window_, on_cursor);
     glfwSetDropCallback(window_, on_drop);
     glfwSetWindowRefreshCallback(window_, on_uncovered);
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
@@ -110,6 +113,16 @@ void Window::on_key(GLFWwindow* window, int key, int, int action, int mods) {
     }
 }
 
+// Asked for, a place would be the mouse's of now, wherever what is being told of happened.
+void Window::on_cursor(GLFWwindow* window, double x, double y) {
+    static_cast<Window*>(glfwGetWindowUserPointer(window))
+        ->buttons_.move(static_cast<float>(x), static_cast<float>(y));
+}
+
+void Window::on_button(GLFWwindow* window, int button, int action, int) {
+    static_cast<Window*>(glfwGetWindowUserPointer(window))->buttons_.add(button, action == GLFW_PRESS);
+}
+
 // More at once than a person means are passed over.
 void Window::on_drop(GLFWwindow* window, int count, const char** paths) {
     constexpr int most = 16;
@@ -136,7 +149,7 @@ void Window::begin(double wait_seconds) {
     for (const int key : std::exchange(held_over_, {})) {
         down[key] = glfwGetKey(window_, key) == GLFW_PRESS;
     }
-    glfwWaitEventsTimeout(wait_seconds);
+    glfwWaitEventsTimeout(buttons_.are_behind() ? 0 : wait_seconds);
     for (const int key : std::exchange(struck_, {})) {
         if (key >= 0 && key <= GLFW_KEY_LAST && !down[key]) {
             down[key] = true;
@@ -145,6 +158,7 @@ void Window::begin(double wait_seconds) {
     }
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    buttons_.play(ImGui::GetIO());
     ImGui::NewFrame();
 }
 

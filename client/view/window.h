@@ -11,6 +11,7 @@
 
 #include "client/view/eye_gates.h"
 #include "client/view/full_screen.h"
+#include "client/view/mouse_buttons.h"
 #include "client/view/theme.h"
 #include "common/base/result.h"
 #include "common/image/image.h"
@@ -83,6 +84,8 @@ class Window {
   private:
     Window(GLFWwindow* window, float scale, bool has_quad_buffers);
     static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
+    static void on_cursor(GLFWwindow* window, double x, double y);
+    static void on_button(GLFWwindow* window, int button, int action, int mods);
     static void on_drop(GLFWwindow* window, int count, const char** paths);
     static void on_uncovered(GLFWwindow* window);
 
@@ -92,6 +95,7 @@ class Window {
     theme::Fonts fonts_;
     EyeGates gates_;
     FullScreen full_screen_;
+    MouseButtons buttons_;
     std::vector<KeyPress> keys_;
     std::set<int> with_control_;  // keys that went down so, and are down
     std::vector<int> struck_;     // keys that went down since the last pass
