@@ -199,9 +199,8 @@ base::Result<Picture> draw_in_process(const options::CubeOptions& cube, const Vi
             const auto visible =
                 culler ? std::optional(culler->visible(factorisation, tf, culling, workers)) : std::nullopt;
             spent.look += stopwatch.lap();
-            shear::RenderStats of_eye;
-            const auto windows = shear::render(loaded.volume(), classification, factorisation, workers,
-                                               &of_eye, {}, visible ? &*visible : nullptr);
+            const auto [windows, of_eye] = shear::render(loaded.volume(), classification, factorisation,
+                                                         workers, {.visible = visible ? &*visible : nullptr});
             add(of_eye, stats);
             spent.render += stopwatch.lap();
             pictures.push_back(image::warp(factorisation, windows, eyes[eye], *size, tf.background, workers));

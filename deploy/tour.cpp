@@ -68,7 +68,7 @@ base::Status tour(const std::string& cube_path, const std::string& png_path) {
     std::vector<image::Window> windows;
     for (const int nearest : view::visibility_order(factorisation, *boxes)) {
         const shear::BrickVolume& leaf = leaves[static_cast<std::size_t>(nearest)];
-        for (image::Window& window : shear::render(leaf, factorisation, tf, workers)) {
+        for (image::Window& window : shear::render(leaf, factorisation, tf, workers).windows) {
             windows.push_back(std::move(window));
         }
     }

@@ -40,7 +40,7 @@ Frame draw(const InProcess& cube, const view::Camera& camera, const view::ImageS
                 .factorisation = view::factorise(camera, size, cube.lattice(), view::sampling(quality)),
                 .windows = {},
                 .picture = {}};
-    frame.windows = shear::render(cube.bricks(), frame.factorisation, tf, cube.workers());
+    frame.windows = shear::render(cube.bricks(), frame.factorisation, tf, cube.workers()).windows;
     frame.picture =
         image::warp(frame.factorisation, frame.windows, camera, size, tf.background, cube.workers());
     return frame;

@@ -84,8 +84,9 @@ CulledPicture compare(const shear::BrickVolume& volume, culling::Culler& culler,
     CulledPicture picture;
     const auto draw = [&](const view::Factorisation& by, const culling::VisibleBlocks* blocks,
                           shear::RenderStats& stats) {
-        const auto windows = shear::render(volume, classification, by, workers, &stats, {}, blocks);
-        return image::warp_float(by, windows, camera, size, workers);
+        const auto drawn = shear::render(volume, classification, by, workers, {.visible = blocks});
+        stats = drawn.stats;
+        return image::warp_float(by, drawn.windows, camera, size, workers);
     };
     const auto with = draw(culled, &visible, picture.with), without = draw(f, nullptr, picture.without);
     for (std::size_t i = 0; i < with.pixels().size(); ++i) {

@@ -99,8 +99,8 @@ class Sequential {
                 visible.bytes()[block] = 1;
             }
         });
-        for (const image::Window& window :
-             shear::render(volume_, classification_, f_, workers_, nullptr, {}, &here)) {
+        const auto drawn = shear::render(volume_, classification_, f_, workers_, {.visible = &here});
+        for (const image::Window& window : drawn.windows) {
             for (int y = 0; y < window.rect.height(); ++y) {
                 const auto front = opacity_.row(window.rect.y0 + y)
                                        .subspan(static_cast<std::size_t>(window.rect.x0),

@@ -96,9 +96,7 @@ Visible visible_of(const CullingRun& run, culling::Culler& culler, culling::Func
         culling::visible_blocks(f, grid, rates, run.settings(culling::Kind::opof), workers);
     visible.polynomial = count_of_both(by_polynomials, opaque);
     visible.missed += visible.optimal - count_of_both(by_polynomials, optimal);
-    shear::RenderStats stats;
-    shear::render(volume, classification, f, workers, &stats);
-    visible.by_rays = stats.bricks_rendered;
+    visible.by_rays = shear::render(volume, classification, f, workers).stats.bricks_rendered;
     return visible;
 }
 

@@ -108,10 +108,9 @@ FrameTimes InProcess::draw(const view::Camera& camera, const view::ImageSize& si
         visible = culling->culler.visible(factorisation, tf, culling->settings, *workers_);
         times.cull = clock.lap();
     }
-    shear::RenderStats stats;
     const auto& classification = classifier_.classify(bricks_, tf, factorisation.classify, *workers_);
-    const auto windows = shear::render(bricks_, classification, factorisation, *workers_, &stats, {},
-                                       visible ? &*visible : nullptr);
+    const auto [windows, stats] = shear::render(bricks_, classification, factorisation, *workers_,
+                                                {.visible = visible ? &*visible : nullptr});
     times.render = clock.lap();
     const auto picture = image::warp(factorisation, windows, camera, size, tf.background, *workers_);
     times.warp = clock.lap();

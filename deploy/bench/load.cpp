@@ -198,7 +198,7 @@ class Loading {
             view::factorise(view::camera_on({}, lattice), {.width = 1024, .height = 1024}, lattice,
                             view::sampling(view::Quality::high));
         const auto draw = [&](const std::stop_token& stop) {
-            shear::render(bricks, factorisation, view::default_transfer_function(), workers_, nullptr, stop);
+            shear::render(bricks, factorisation, view::default_transfer_function(), workers_, {.stop = stop});
         };
         const Spread times = measure_times(flags_.common.frames, [&] { draw({}); });
         add("frame", workers_.threads(), std::nullopt, times);

@@ -244,8 +244,8 @@ void Jobs::draw(const leaf::Draw& job, const std::stop_token& stop) {
     const auto& classification =
         from->classifier.classify(*from->volume, job.tf, job.factorisation.classify, drawers_);
     const shear::RenderStats stats =
-        shear::render_bands(*from->volume, classification, job.factorisation, bands, drawers_, on_bands, stop,
-                            job.visible ? &*job.visible : nullptr);
+        shear::render_bands(*from->volume, classification, job.factorisation, bands, drawers_, on_bands,
+                            {.stop = stop, .visible = job.visible ? &*job.visible : nullptr});
     if (stop.stop_requested()) {
         return;
     }

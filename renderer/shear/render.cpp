@@ -242,13 +242,13 @@ void render_faces(Frame& frame, const view::Factorisation& factorisation, std::s
 
 RenderStats render_bands(const BrickVolume& volume, const Classification& classification,
                          const view::Factorisation& factorisation, std::span<const view::Band> bands,
-                         base::Workers& workers, const OnBands& on_bands, const std::stop_token& stop,
-                         const culling::VisibleBlocks* visible) {
+                         base::Workers& workers, const OnBands& on_bands, const RenderOptions& options) {
     base::check(factorisation.lattice.n == volume.cube(), "a factorisation is that of the volume's cube");
     base::check(factorisation.level() < volume.levels(), "a factorisation keeps to the cube's levels");
     base::check(
         classification.segments.has_value() == (factorisation.classify == view::Classify::pre_integrated),
         "a volume is classified as the factorisation has it");
+    const culling::VisibleBlocks* const visible = options.visible;
     const std::vector<Content>& all =
         classification.micro_bricks[static_cast<std::size_t>(factorisation.level())];
     const bool any = visible == nullptr || sees_any(volume.box(), *visible);
@@ -263,9 +263,9 @@ RenderStats render_bands(const BrickVolume& volume, const Classification& classi
     if (!any) {
         on_bands({bands.size(), {}});
     } else if (volume.mapping().bits == 8) {
-        render_faces<std::uint8_t>(frame, factorisation, bands, workers, on_bands, stop);
+        render_faces<std::uint8_t>(frame, factorisation, bands, workers, on_bands, options.stop);
     } else {
-        render_faces<std::uint16_t>(frame, factorisation, bands, workers, on_bands, stop);
+        render_faces<std::uint16_t>(frame, factorisation, bands, workers, on_bands, options.stop);
     }
     RenderStats stats = count(frame);
     if (visible != nullptr) {
@@ -274,33 +274,27 @@ RenderStats render_bands(const BrickVolume& volume, const Classification& classi
     return stats;
 }
 
-std::vector<Window> render(const BrickVolume& volume, const Classification& classification,
-                           const view::Factorisation& factorisation, base::Workers& workers,
-                           RenderStats* stats, const std::stop_token& stop,
-                           const culling::VisibleBlocks* visible) {
+Rendered render(const BrickVolume& volume, const Classification& classification,
+                const view::Factorisation& factorisation, base::Workers& workers,
+                const RenderOptions& options) {
     std::vector<view::Band> whole;
     for (const view::Face& face : factorisation.faces) {
         whole.push_back({static_cast<int>(whole.size()), {0, 0, face.width, face.height}});
     }
-    std::vector<Window> windows;
+    Rendered rendered;
     const auto keep = [&](DrawnBands drawn) {
         if (!drawn.window.rect.empty()) {
-            windows.push_back(std::move(drawn.window));
+            rendered.windows.push_back(std::move(drawn.window));
         }
     };
-    const RenderStats counted =
-        render_bands(volume, classification, factorisation, whole, workers, keep, stop, visible);
-    if (stats != nullptr) {
-        *stats = counted;
-    }
-    return windows;
+    rendered.stats = render_bands(volume, classification, factorisation, whole, workers, keep, options);
+    return rendered;
 }
 
-std::vector<Window> render(const BrickVolume& volume, const view::Factorisation& factorisation,
-                           const view::TransferFunction& tf, base::Workers& workers, RenderStats* stats,
-                           const std::stop_token& stop) {
+Rendered render(const BrickVolume& volume, const view::Factorisation& factorisation,
+                const view::TransferFunction& tf, base::Workers& workers, const RenderOptions& options) {
     return render(volume, classify(volume, tf, factorisation.classify, workers), factorisation, workers,
-                  stats, stop);
+                  options);
 }
 
 }  // namespace shearwater::shear

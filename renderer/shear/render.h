@@ -34,25 +34,31 @@ struct DrawnBands {
 };
 using OnBands = std::function<void(DrawnBands)>;
 
+struct RenderOptions {
+    std::stop_token stop = {};                        // soon after a request what is returned is of no use
+    const culling::VisibleBlocks* visible = nullptr;  // what lies in other blocks is left out
+};
+
 // Renders a classified volume band by band, in the order of the frame's bands; they are cut from the faces in
 // that of the faces. `on_bands` is told of them as soon as they are whole, in their order and one after the
-// other, on any of the threads, while the others go on. What lies in blocks that are not visible is left out.
+// other, on any of the threads, while the others go on.
 RenderStats render_bands(const BrickVolume& volume, const Classification& classification,
                          const view::Factorisation& factorisation, std::span<const view::Band> bands,
-                         base::Workers& workers, const OnBands& on_bands, const std::stop_token& stop = {},
-                         const culling::VisibleBlocks* visible = nullptr);
+                         base::Workers& workers, const OnBands& on_bands, const RenderOptions& options = {});
+
+struct Rendered {
+    std::vector<image::Window> windows;
+    RenderStats stats;
+};
 
 // Renders a classified volume for every face, front to back with early termination. The factorisation's
 // lattice is the cube's. Samples are placed by global voxel index, so windows of leaves that share a
 // factorisation merge exactly. At most one window a face, none where the box projects to nothing.
-// Stops soon after `stop` is requested; what it then returns is of no use.
-std::vector<image::Window> render(const BrickVolume& volume, const Classification& classification,
-                                  const view::Factorisation& factorisation, base::Workers& workers,
-                                  RenderStats* stats = nullptr, const std::stop_token& stop = {},
-                                  const culling::VisibleBlocks* visible = nullptr);
+Rendered render(const BrickVolume& volume, const Classification& classification,
+                const view::Factorisation& factorisation, base::Workers& workers,
+                const RenderOptions& options = {});
 // Classifies it first.
-std::vector<image::Window> render(const BrickVolume& volume, const view::Factorisation& factorisation,
-                                  const view::TransferFunction& tf, base::Workers& workers,
-                                  RenderStats* stats = nullptr, const std::stop_token& stop = {});
+Rendered render(const BrickVolume& volume, const view::Factorisation& factorisation,
+                const view::TransferFunction& tf, base::Workers& workers, const RenderOptions& options = {});
 
 }  // namespace shearwater::shear

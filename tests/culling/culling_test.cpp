@@ -120,10 +120,8 @@ TEST(Culling, EndsRays) {
             shear::RenderStats stats;
         };
         const auto draw = [&] {
-            Drawn drawn;
-            const auto windows = shear::render(volume, f, ramp(0, 0.1, 1, 0.3), workers, &drawn.stats);
-            drawn.picture = image::warp_float(f, windows, camera, size, workers);
-            return drawn;
+            const auto [windows, stats] = shear::render(volume, f, ramp(0, 0.1, 1, 0.3), workers);
+            return Drawn{image::warp_float(f, windows, camera, size, workers), stats};
         };
         const Drawn all = draw();
         double before = 1;
@@ -182,12 +180,12 @@ TEST(Culling, DrawsNoMoreThanIsVisible) {
                                    lattice, view::sampling(view::Quality::normal));
     const auto classification = shear::classify(volume, ramp(0, 0.1, 1, 0.3), f.classify, workers);
     VisibleBlocks visible{BlockGrid(noise.n()), BlockSet(BlockGrid(noise.n()).size())};
-    shear::RenderStats stats;
-    EXPECT_TRUE(shear::render(volume, classification, f, workers, &stats, {}, &visible).empty());
-    EXPECT_EQ(stats.samples, 0U);
-    EXPECT_EQ(stats.bricks_culled, stats.bricks_total);
+    const auto nothing = shear::render(volume, classification, f, workers, {.visible = &visible});
+    EXPECT_TRUE(nothing.windows.empty());
+    EXPECT_EQ(nothing.stats.samples, 0U);
+    EXPECT_EQ(nothing.stats.bricks_culled, nothing.stats.bricks_total);
     visible.blocks.bytes()[visible.grid.index({1, 1, 0})] = 1;
-    shear::render(volume, classification, f, workers, &stats, {}, &visible);
+    const auto stats = shear::render(volume, classification, f, workers, {.visible = &visible}).stats;
     EXPECT_GT(stats.samples, 0U);
     EXPECT_EQ(stats.bricks_culled, stats.bricks_total - 1);
     EXPECT_LE(stats.bricks_rendered, 2U);

@@ -92,8 +92,7 @@ TEST(RenderBands, AreTogetherTheWholeFrame) {
             const auto f = view::factorise(camera, {560, 500}, lattice, {1});
             const auto bands = view::bands_of(f);
             ASSERT_GE(bands.size(), 3U);
-            RenderStats stats;
-            const auto whole = render(volume, f, thin(), workers, &stats);
+            const auto [whole, stats] = render(volume, f, thin(), workers);
             const Banded banded = render_in_bands(volume, f, workers);
             expect_whole(banded, whole, bands);
             EXPECT_EQ(banded.stats.bricks_rendered, stats.bricks_rendered);
@@ -130,7 +129,8 @@ TEST(RenderBands, StopBetweenTwo) {
         told = drawn.bands;
         stop.request_stop();
     };
-    render_bands(volume, classification, f, view::bands_of(f), workers, stop_at_once, stop.get_token());
+    render_bands(volume, classification, f, view::bands_of(f), workers, stop_at_once,
+                 {.stop = stop.get_token()});
     EXPECT_GE(told, 1U);
     EXPECT_LT(told, view::bands_of(f).size());
 }

@@ -82,8 +82,7 @@ void expect_as_of_one_copy(FloatCube& cube, const CopiesDrawn& taking) {
         const auto factorisation = view::factorise(view.camera, taking.size, lattice, taking.sampling);
         across_first += factorisation.faces.front().axis == 0 ? 1 : 0;
         const auto picture = [&](const BrickVolume& volume) {
-            shear::RenderStats stats;
-            const auto windows = shear::render(volume, factorisation, ramp_to(0.2), workers, &stats);
+            const auto [windows, stats] = shear::render(volume, factorisation, ramp_to(0.2), workers);
             return std::pair(
                 image::warp(factorisation, windows, view.camera, taking.size, {0, 0, 0}, workers),
                 stats.samples);

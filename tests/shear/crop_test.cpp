@@ -31,7 +31,8 @@ Drawn draw(const shear::BrickVolume& volume, const Vec3& spacing, const view::Tr
     const auto f = view::factorise(camera, size, {volume.cube(), spacing}, sampling, crop);
     EXPECT_TRUE(view::validate(f));
     Drawn drawn{.picture = {}, .stats = {}, .level = f.level()};
-    const auto windows = shear::render(volume, f, tf, workers, &drawn.stats);
+    const auto [windows, stats] = shear::render(volume, f, tf, workers);
+    drawn.stats = stats;
     drawn.picture = image::warp_float(f, windows, camera, size, workers);
     return drawn;
 }

@@ -82,10 +82,9 @@ class Tree {
     std::vector<Window> render(const Factorisation& f, const view::TransferFunction& tf,
                                base::Workers& workers, std::uint64_t& samples) const {
         if (!leaf_.empty()) {
-            shear::RenderStats stats;
-            auto windows = shear::render(leaf_[0], f, tf, workers, &stats);
+            auto [windows, stats] = shear::render(leaf_[0], f, tf, workers);
             samples += stats.samples;
-            return windows;
+            return std::move(windows);
         }
         std::vector<Box> boxes;
         for (const Tree& child : children_) {

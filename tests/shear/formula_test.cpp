@@ -155,7 +155,7 @@ TEST_P(SlabTest, HasTheOpacityOfItsThicknessInEveryView) {
         for (const auto& [name, camera] : all_views(lattice, depth < 1 ? 5 : 1)) {
             for (const view::Classify classify : both_ways) {
                 const auto f = view::factorise(camera, size, lattice, {.classify = classify});
-                const auto windows = shear::render(volume, f, flat(tau), workers);
+                const auto windows = shear::render(volume, f, flat(tau), workers).windows;
                 EXPECT_LT(window_error(f, windows, tau).error, 2e-4)
                     << name << ", depth " << depth << name_of(classify);
                 const auto picture = image::warp_float(f, windows, camera, size, workers);
@@ -191,7 +191,7 @@ TEST(SlabTest, HasTheSameOpacityOnEveryLevel) {
             for (f.slice_exponent = 1; f.slice_exponent < volume.levels(); ++f.slice_exponent) {
                 for (const view::Classify classify : both_ways) {
                     f.classify = classify;
-                    const auto windows = shear::render(volume, f, flat(tau), workers);
+                    const auto windows = shear::render(volume, f, flat(tau), workers).windows;
                     EXPECT_LT(window_error(f, windows, tau).error, 2e-4)
                         << name << ", level " << f.slice_exponent << name_of(classify);
                     const auto picture = image::warp_float(f, windows, camera, size, workers);
@@ -217,7 +217,7 @@ TEST(SlabTest, ShortRaysGetNoMoreThanTheirDue) {
         auto f = view::factorise(camera, {120, 120}, lattice, {1});
         for (const view::Classify classify : both_ways) {
             f.classify = classify;
-            for (const image::Window& window : shear::render(volume, f, flat(tau), workers)) {
+            for (const image::Window& window : shear::render(volume, f, flat(tau), workers).windows) {
                 const Face& face = f.faces[static_cast<std::size_t>(window.face)];
                 for (int j = window.rect.y0; j < window.rect.y1; ++j) {
                     for (int i = window.rect.x0; i < window.rect.x1; ++i) {
@@ -270,7 +270,7 @@ TEST(BallTest, HasTheSameOpacityOnEveryLevel) {
         for (f.slice_exponent = 1; f.slice_exponent < volume.levels(); ++f.slice_exponent) {
             for (const view::Classify classify : both_ways) {
                 f.classify = classify;
-                const auto windows = shear::render(volume, f, proportional(tau), workers);
+                const auto windows = shear::render(volume, f, proportional(tau), workers).windows;
                 const auto picture = image::warp_float(f, windows, camera, {140, 120}, workers);
                 const Worst worst = ball_error(picture, camera, radius, tau, 20);
                 EXPECT_LT(worst.error, 0.02) << name << ", level " << f.slice_exponent << name_of(classify);

@@ -139,8 +139,9 @@ TEST(Sketch, OfAnEvenCubeGivesTheCubesPicture) {
     const view::Camera camera = view::camera_on({}, lattice);
     view::Factorisation factorisation = view::factorise(camera, size, lattice, {});
     const auto picture = [&](const shear::BrickVolume& volume, shear::RenderStats& stats) {
-        return image::warp(factorisation, shear::render(volume, factorisation, tf, workers, &stats), camera,
-                           size, tf.background, workers);
+        const auto drawn = shear::render(volume, factorisation, tf, workers);
+        stats = drawn.stats;
+        return image::warp(factorisation, drawn.windows, camera, size, tf.background, workers);
     };
     shear::RenderStats by_voxels, by_nodes;
     const auto expected = picture(whole, by_voxels);

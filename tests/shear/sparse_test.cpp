@@ -213,8 +213,9 @@ void expect_as_by_volume(FloatCube& cube, const volume::Box& box, const Shown& t
             view::factorise(view.camera, taking.size, lattice, taking.sampling, taking.crop);
         sparse += by_pieces.is_sparse[static_cast<std::size_t>(factorisation.level())] ? 1 : 0;
         const auto picture = [&](const shear::Classification& classification) {
-            const auto windows = shear::render(volume, classification, factorisation, workers, nullptr, {},
-                                               visible ? &*visible : nullptr);
+            const auto windows = shear::render(volume, classification, factorisation, workers,
+                                               {.visible = visible ? &*visible : nullptr})
+                                     .windows;
             return image::warp(factorisation, windows, view.camera, taking.size, {0, 0, 0}, workers);
         };
         const auto a = picture(by_pieces), b = picture(by_volume);

@@ -79,15 +79,15 @@ TEST(Stop, OfAFrameTakesNoSample) {
     const auto volume = bricks_of(cube, workers);
     const view::Lattice lattice{.n = cube.n(), .spacing = {1, 1, 1}};
     const auto factorisation = view::factorise(view::camera_on({}, lattice), {300, 200}, lattice, {});
-    shear::RenderStats stats;
     std::stop_source stop;
-    shear::render(volume, factorisation, view::default_transfer_function(), workers, &stats,
-                  stop.get_token());
-    EXPECT_GT(stats.samples, 0U);
+    const auto samples = [&] {
+        return shear::render(volume, factorisation, view::default_transfer_function(), workers,
+                             {.stop = stop.get_token()})
+            .stats.samples;
+    };
+    EXPECT_GT(samples(), 0U);
     stop.request_stop();
-    shear::render(volume, factorisation, view::default_transfer_function(), workers, &stats,
-                  stop.get_token());
-    EXPECT_EQ(stats.samples, 0U);
+    EXPECT_EQ(samples(), 0U);
 }
 
 }  // namespace

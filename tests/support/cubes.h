@@ -58,7 +58,7 @@ class Single {
         const auto factorisation =
             view::factorise(v.camera, v.size, lattice_,
                             view::sampling(v.quality, v.level_of_detail.value_or(true), v.classify), v.crop);
-        const auto windows = shear::render(volume_, factorisation, v.tf, workers_);
+        const auto windows = shear::render(volume_, factorisation, v.tf, workers_).windows;
         return image::warp(factorisation, windows, v.camera, v.size, v.tf.background, workers_);
     }
     const view::Lattice& lattice() const { return lattice_; }

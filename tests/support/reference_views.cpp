@@ -52,7 +52,7 @@ image::Image<image::RgbaF> picture_of(const shear::BrickVolume& volume, const vi
                                       const view::ImageSize& size, base::Workers& workers,
                                       const view::Sampling& sampling) {
     const auto factorisation = view::factorise(camera, size, lattice, sampling);
-    const auto windows = shear::render(volume, factorisation, tf, workers);
+    const auto windows = shear::render(volume, factorisation, tf, workers).windows;
     return image::warp_float(factorisation, windows, camera, size, workers);
 }
 

@@ -217,7 +217,7 @@ struct Simulation::Renderer final : Simulation::Daemon {
                     tell(leaf::Drawn{job, message, last});
                 });
             },
-            {}, draw.visible ? &*draw.visible : nullptr);
+            {.visible = draw.visible ? &*draw.visible : nullptr});
         sim.culled_bricks_ += stats.bricks_culled;
     }
 
