@@ -1,16 +1,17 @@
 #include "client/model/recent.h"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <charconv>
 #include <optional>
+
+#include "common/document/reader.h"
 
 namespace shearwater::model {
 
 namespace {
 
 constexpr std::int64_t version = 1;
+constexpr std::size_t longest_text = std::size_t{1} << 20;
 
 std::string escaped(std::string_view bytes) {
     constexpr std::string_view digits = "0123456789ABCDEF";
@@ -98,13 +99,11 @@ base::Result<RecentList> recent_from_toml(std::string_view text, const std::stri
     const auto refuse = [&](const std::string& what) {
         return base::error(base::Code::corrupt, operation, what);
     };
-    toml::table root;
-    try {
-        root = toml::parse(text);
-    } catch (const toml::parse_error& fault) {
-        return refuse("line " + std::to_string(fault.source().begin.line) + ": " +
-                      std::string(fault.description()));
+    const auto parsed = document::parse(text, operation, longest_text);
+    if (!parsed) {
+        return parsed.error();
     }
+    const toml::table& root = *parsed;
     if (root["version"].value_exact<std::int64_t>() != version) {
         return refuse("it is no list of connections that is known here");
     }

@@ -1,14 +1,12 @@
 #include "common/flight/path_toml.h"
 
 #include <fmt/core.h>
-#include <toml++/toml.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <initializer_list>
 #include <sstream>
 
 #include "common/base/text_file.h"
+#include "common/document/reader.h"
 #include "common/options/drawing_options.h"
 #include "common/view/transfer_function_table.h"
 
@@ -22,168 +20,83 @@ std::string beside(const std::string& folder, const std::string& path) {
     return std::filesystem::path(path).is_absolute() ? path : (std::filesystem::path(folder) / path).string();
 }
 
-// Reads one document and keeps the first thing found wrong with it.
-class Reader {
+// Reads one path.
+class PathReader {
   public:
-    explicit Reader(std::string folder) : folder_(std::move(folder)) {}
+    explicit PathReader(std::string folder) : folder_(std::move(folder)) {}
 
     Path read(const toml::table& root) {
-        only_keys(root, "the flight path", {"fps", "cube", "key"});
+        reader_.only_keys(root, "the flight path", {"fps", "cube", "key"});
         Path path;
-        whole(root, "fps", path.fps);
-        each_table(root, "cube", Path::max_cubes,
-                   [&](const toml::table& table) { path.cubes.push_back(cube(table)); });
+        if (root.contains("fps")) {
+            path.fps = static_cast<int>(reader_.whole(root, "fps"));
+        }
+        reader_.each_table(root, "cube", Path::max_cubes,
+                           [&](const toml::table& table) { path.cubes.push_back(cube(table)); });
         Key key;
-        each_table(root, "key", Path::max_keys, [&](const toml::table& table) {
+        reader_.each_table(root, "key", Path::max_keys, [&](const toml::table& table) {
             read_key(table, key);
             path.keys.push_back(key);
         });
         return path;
     }
 
-    const std::string& fault() const { return fault_; }
+    const std::string& fault() const { return reader_.fault(); }
 
   private:
-    void fail(std::string what) {
-        if (fault_.empty()) {
-            fault_ = std::move(what);
-        }
-    }
-    void fail(const toml::node& at, const std::string& what) {
-        fail(fmt::format("line {}: {}", at.source().begin.line, what));
-    }
-
-    void only_keys(const toml::table& table, std::string_view where,
-                   std::initializer_list<std::string_view> known) {
-        for (const auto& [key, value] : table) {
-            if (std::ranges::find(known, key.str()) == known.end()) {
-                fail(fmt::format("line {}: unknown key \"{}\" in {}", key.source().begin.line,
-                                 base::printable(key.str(), 40), where));
-            }
-        }
-    }
-
-    template <class Use>
-    void each_table(const toml::table& root, std::string_view key, std::size_t most, const Use& use) {
-        const toml::node* node = root.get(key);
-        if (node == nullptr) {
-            return;
-        }
-        const toml::array* tables = node->as_array();
-        if (tables == nullptr || !(tables->empty() || tables->is_array_of_tables())) {
-            return fail(*node, fmt::format("write each as [[{}]]", key));
-        }
-        if (tables->size() > most) {
-            return fail(*node, fmt::format("more than {} of [[{}]]", most, key));
-        }
-        for (const toml::node& table : *tables) {
-            if (fault_.empty()) {
-                use(*table.as_table());
-            }
-        }
-    }
-
-    void number(const toml::table& table, std::string_view key, double& value) {
-        if (const toml::node* node = table.get(key)) {
-            if (!node->is_number()) {
-                return fail(*node, fmt::format("{} must be a number", key));
-            }
-            value = node->value<double>().value_or(value);
-        }
-    }
-
-    template <class Whole>
-    void whole(const toml::table& table, std::string_view key, Whole& value) {
-        if (const toml::node* node = table.get(key)) {
-            const auto read = node->value_exact<std::int64_t>();
-            if (!read || *read < 0 || *read > 1'000'000'000) {
-                return fail(*node, fmt::format("{} must be a whole number, not below 0", key));
-            }
-            value = static_cast<Whole>(*read);
-        }
-    }
-
-    std::vector<double> numbers(const toml::node& node, std::string_view key, std::size_t count) {
-        std::vector<double> values;
-        if (const toml::array* array = node.as_array()) {
-            for (const toml::node& value : *array) {
-                if (value.is_number()) {
-                    values.push_back(value.value<double>().value_or(0));
-                }
-            }
-            if (values.size() == count && array->size() == count) {
-                return values;
-            }
-        }
-        fail(node, fmt::format("{} must be {} numbers", key, count));
-        return std::vector<double>(count, 0);
-    }
-
-    std::string word(const toml::node& node, std::string_view key,
-                     std::initializer_list<std::string_view> known = {}) {
-        const auto text = node.value_exact<std::string>();
-        if (!text || text->empty()) {
-            fail(node, fmt::format("{} must be text", key));
-        } else if (known.size() > 0 && std::ranges::find(known, *text) == known.end()) {
-            fail(node, fmt::format("{} cannot be \"{}\"", key, base::printable(*text, 40)));
-        }
-        return text.value_or("");
-    }
-
     options::CubeOptions cube(const toml::table& table) {
-        only_keys(table, "a cube",
-                  {"path", "hdu", "plane", "range", "percentile", "stretch", "bits", "spacing"});
+        reader_.only_keys(table, "a cube",
+                          {"path", "hdu", "plane", "range", "percentile", "stretch", "bits", "spacing"});
         options::CubeOptions made;
-        if (const toml::node* node = table.get("path")) {
-            made.path = word(*node, "path");
-            if (!made.path.starts_with("synthetic:")) {
-                made.path = beside(folder_, made.path);
-            }
-        } else {
-            fail(table, "a cube needs its path");
+        made.path = reader_.text(table, "path");
+        if (made.path.empty()) {
+            reader_.fail(table, "a cube needs its path");
+        } else if (!made.path.starts_with("synthetic:")) {
+            made.path = beside(folder_, made.path);
         }
         if (table.contains("hdu")) {
-            whole(table, "hdu", made.hdu.emplace());
+            made.hdu = static_cast<int>(reader_.whole(table, "hdu"));
         }
         if (table.contains("plane")) {
-            whole(table, "plane", made.plane.emplace());
+            made.plane = reader_.whole(table, "plane");
         }
-        if (const toml::node* node = table.get("range")) {
-            made.range = numbers(*node, "range", 2);
+        if (table.contains("range")) {
+            const auto range = reader_.numbers<2>(table, "range");
+            made.range.assign(range.begin(), range.end());
         }
-        number(table, "percentile", made.percentile);
+        made.percentile = reader_.number_or(table, "percentile", made.percentile);
         if (!(made.percentile >= 1 && made.percentile <= 100)) {
-            fail(table, "the percentile must lie between 1 and 100");
+            reader_.wrong(table, "percentile", "between 1 and 100");
         }
-        if (const toml::node* node = table.get("stretch")) {
-            made.stretch = word(*node, "stretch", {"linear", "sqrt", "log", "asinh"});
+        if (table.contains("stretch")) {
+            made.stretch = volume::stretch_names[reader_.one_of(table, "stretch", volume::stretch_names)];
         }
-        whole(table, "bits", made.bits);
+        if (table.contains("bits")) {
+            made.bits = static_cast<int>(reader_.whole(table, "bits"));
+        }
         if (made.bits != 8 && made.bits != 16) {
-            fail(table, "bits must be 8 or 16");
+            reader_.wrong(table, "bits", "8 or 16");
         }
-        if (const toml::node* node = table.get("spacing")) {
-            made.spacing = numbers(*node, "spacing", 3);
+        if (table.contains("spacing")) {
+            const auto spacing = reader_.numbers<3>(table, "spacing");
+            made.spacing.assign(spacing.begin(), spacing.end());
         }
         if (const auto valid = made.validate(); !valid) {
-            fail(table, valid.error().detail);
+            reader_.fail(table, valid.error().detail);
         }
         return made;
     }
 
+    // What it does not say stays as the key before has it.
     void read_key(const toml::table& table, Key& key) {
-        only_keys(table, "a key",
-                  {"time", "cube", "azimuth", "elevation", "roll", "distance", "target", "projection", "fov",
-                   "limits", "stretch", "tf"});
-        if (!table.contains("time")) {
-            fail(table, "a key needs its time");
-        }
-        number(table, "time", key.time);
-        if (const toml::node* node = table.get("cube")) {
-            std::size_t from_one = 0;
-            whole(table, "cube", from_one);
+        reader_.only_keys(table, "a key",
+                          {"time", "cube", "azimuth", "elevation", "roll", "distance", "target", "projection",
+                           "fov", "limits", "stretch", "tf"});
+        key.time = reader_.number(table, "time");
+        if (table.contains("cube")) {
+            const auto from_one = static_cast<std::size_t>(reader_.whole(table, "cube"));
             if (from_one == 0) {
-                fail(*node, "cubes are numbered from 1");
+                reader_.wrong(table, "cube", "a number from 1 on");
             }
             if (from_one - 1 != key.cube) {
                 key.scaling.reset();
@@ -192,61 +105,60 @@ class Reader {
         }
         read_scaling(table, key);
         view::Viewpoint& viewpoint = key.viewpoint;
-        number(table, "azimuth", viewpoint.orbit.azimuth);
-        number(table, "elevation", viewpoint.orbit.elevation);
-        number(table, "roll", viewpoint.orbit.roll);
-        number(table, "distance", viewpoint.orbit.distance);
-        number(table, "fov", viewpoint.fov);
-        if (const toml::node* node = table.get("target")) {
-            const auto at = numbers(*node, "target", 3);
+        const auto may_change = [&](std::string_view name, double& value) {
+            value = reader_.number_or(table, name, value);
+        };
+        may_change("azimuth", viewpoint.orbit.azimuth);
+        may_change("elevation", viewpoint.orbit.elevation);
+        may_change("roll", viewpoint.orbit.roll);
+        may_change("distance", viewpoint.orbit.distance);
+        may_change("fov", viewpoint.fov);
+        if (table.contains("target")) {
+            const auto at = reader_.numbers<3>(table, "target");
             viewpoint.orbit.target = {at[0], at[1], at[2]};
         }
-        if (const toml::node* node = table.get("projection")) {
-            viewpoint.projection = word(*node, "projection", {"perspective", "parallel"}) == "parallel"
-                                       ? view::Projection::parallel
-                                       : view::Projection::perspective;
+        if (table.contains("projection")) {
+            viewpoint.projection =
+                static_cast<view::Projection>(reader_.one_of(table, "projection", view::projection_names));
         }
         if (const toml::node* node = table.get("tf")) {
-            read_tf(*node, key.tf);
+            read_tf(*node, table, key.tf);
         }
     }
 
     void read_scaling(const toml::table& table, Key& key) {
-        if (const toml::node* node = table.get("limits")) {
-            const auto limits = numbers(*node, "limits", 2);
+        if (table.contains("limits")) {
+            const auto limits = reader_.numbers<2>(table, "limits");
             key.scaling = {limits[0], limits[1], key.scaling.value_or(volume::Scaling{}).stretch};
         }
-        if (const toml::node* node = table.get("stretch")) {
+        if (table.contains("stretch")) {
             if (!key.scaling) {
-                return fail(*node, "a stretch needs limits");
+                return reader_.fail(table, "a stretch needs limits");
             }
-            const std::string name = word(*node, "stretch");
-            const auto stretch = volume::stretch_named(name);
-            if (!stretch) {
-                return fail(*node, fmt::format("stretch cannot be \"{}\"", base::printable(name, 40)));
-            }
-            key.scaling->stretch = *stretch;
+            key.scaling->stretch =
+                static_cast<volume::Stretch>(reader_.one_of(table, "stretch", volume::stretch_names));
         }
     }
 
-    void read_tf(const toml::node& node, view::TransferFunction& tf) {
-        base::Result<view::AnchoredFunction> read = view::AnchoredFunction{};
-        if (const toml::table* table = node.as_table()) {
-            read = view::transfer_function_from_table(*table, "");
-        } else if (std::string file = word(node, "tf"); !file.empty()) {
-            read = options::read_transfer_function(beside(folder_, file));
+    void read_tf(const toml::node& node, const toml::table& table, view::TransferFunction& tf) {
+        const toml::table* const pins = node.as_table();
+        const std::string file = pins == nullptr ? reader_.text(table, "tf") : std::string();
+        if (!fault().empty()) {
+            return;
         }
+        auto read = pins != nullptr ? view::transfer_function_from_table(*pins, "")
+                                    : options::read_transfer_function(beside(folder_, file));
         if (!read) {
-            fail(node, fmt::format("tf: {}", read.error().detail));
+            reader_.fail(node, fmt::format("tf: {}", read.error().detail));
         } else if (read->unit != view::Unit::stretched) {
-            fail(node, "tf: a flight's transfer functions are placed by stretched values");
+            reader_.fail(node, "tf: a flight's transfer functions are placed by stretched values");
         } else {
             tf = std::move(read->tf);
         }
     }
 
     std::string folder_;
-    std::string fault_;
+    document::Reader reader_;
 };
 
 toml::table table_of(const options::CubeOptions& cube) {
@@ -270,7 +182,6 @@ toml::table table_of(const options::CubeOptions& cube) {
 toml::table table_of(const Key& key) {
     const view::Viewpoint& viewpoint = key.viewpoint;
     const view::Orbit& orbit = viewpoint.orbit;
-    const bool parallel = viewpoint.projection == view::Projection::parallel;
     toml::table table{{"time", key.time},
                       {"cube", static_cast<std::int64_t>(key.cube + 1)},
                       {"azimuth", orbit.azimuth},
@@ -278,7 +189,7 @@ toml::table table_of(const Key& key) {
                       {"roll", orbit.roll},
                       {"distance", orbit.distance},
                       {"target", toml::array{orbit.target.x, orbit.target.y, orbit.target.z}},
-                      {"projection", parallel ? "parallel" : "perspective"},
+                      {"projection", view::projection_names[static_cast<std::size_t>(viewpoint.projection)]},
                       {"fov", viewpoint.fov},
                       {"tf", toml::parse(view::to_toml({.tf = key.tf}))}};
     if (key.scaling) {
@@ -293,15 +204,12 @@ toml::table table_of(const Key& key) {
 base::Result<Path> path_from_toml(std::string_view text, const std::string& source,
                                   const std::string& folder) {
     const std::string operation = fmt::format("read flight path {}", source);
-    toml::table root;
-    try {
-        root = toml::parse(text);
-    } catch (const toml::parse_error& fault) {
-        return base::error(base::Code::corrupt, operation,
-                           fmt::format("line {}: {}", fault.source().begin.line, fault.description()));
+    const auto root = document::parse(text, operation, longest_text);
+    if (!root) {
+        return root.error();
     }
-    Reader reader(folder);
-    Path path = reader.read(root);
+    PathReader reader(folder);
+    Path path = reader.read(*root);
     if (!reader.fault().empty()) {
         return base::error(base::Code::invalid_argument, operation, reader.fault());
     }

@@ -1,11 +1,9 @@
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
-#include <algorithm>
 #include <array>
-#include <initializer_list>
-#include <limits>
 
+#include "common/document/number_text.h"
+#include "common/document/reader.h"
 #include "common/scene/scene.h"
 #include "common/view/transfer_function_table.h"
 
@@ -13,104 +11,17 @@ namespace shearwater::scene {
 
 namespace {
 
+using document::number_text;
+
 constexpr std::size_t longest_text = std::size_t{1} << 20;
 constexpr int version = 1;
 
-constexpr std::array<std::string_view, 2> projections{"perspective", "parallel"};
 constexpr std::array<std::string_view, 2> classifications{"post", "pre-integrated"};
 constexpr std::array<std::string_view, 4> qualities{"auto", "draft", "normal", "high"};
 constexpr std::array<std::string_view, 2> swaps{"no", "yes"};
 constexpr std::array<std::string_view, 3> levels{"server", "on", "off"};
 
-// Reads a document and keeps the first thing found wrong with it.
-class Reader {
-  public:
-    void fail(std::string what) {
-        if (fault_.empty()) {
-            fault_ = std::move(what);
-        }
-    }
-    const std::string& fault() const { return fault_; }
-
-    void only_keys(const toml::table& table, std::string_view where,
-                   std::initializer_list<std::string_view> known) {
-        for (const auto& [key, value] : table) {
-            if (std::ranges::find(known, key.str()) == known.end()) {
-                fail(fmt::format("line {}: unknown key \"{}\" in {}", key.source().begin.line,
-                                 base::printable(key.str(), 40), where));
-            }
-        }
-    }
-
-    const toml::table& section(const toml::table& root, std::string_view key) {
-        const toml::node* const node = root.get(key);
-        if (node == nullptr || !node->is_table()) {
-            fail(fmt::format("the section [{}] is missing", key));
-            return nothing_;
-        }
-        return *node->as_table();
-    }
-
-    double number(const toml::table& table, std::string_view key) {
-        const toml::node* const node = table.get(key);
-        if (node == nullptr || !node->is_number()) {
-            wrong(table, key, "a number");
-            return 0;
-        }
-        return node->value<double>().value_or(std::numeric_limits<double>::quiet_NaN());
-    }
-
-    template <std::size_t N>
-    std::array<double, N> numbers(const toml::table& table, std::string_view key) {
-        std::array<double, N> read{};
-        const toml::node* const node = table.get(key);
-        const toml::array* const values = node != nullptr ? node->as_array() : nullptr;
-        if (values == nullptr || values->size() != N) {
-            wrong(table, key, fmt::format("{} numbers", N));
-            return read;
-        }
-        for (std::size_t i = 0; i < N; ++i) {
-            const toml::node& value = *values->get(i);
-            if (!value.is_number()) {
-                wrong(table, key, fmt::format("{} numbers", N));
-            }
-            read[i] = value.value<double>().value_or(std::numeric_limits<double>::quiet_NaN());
-        }
-        return read;
-    }
-
-    std::size_t one_of(const toml::table& table, std::string_view key,
-                       std::span<const std::string_view> words) {
-        const auto word = table[key].value_exact<std::string>();
-        const auto found = word ? std::ranges::find(words, *word) : words.end();
-        if (found == words.end()) {
-            wrong(table, key, fmt::format("one of {}", fmt::join(words, ", ")));
-            return 0;
-        }
-        return static_cast<std::size_t>(found - words.begin());
-    }
-
-    std::string text(const toml::table& table, std::string_view key) {
-        const auto read = table[key].value_exact<std::string>();
-        if (!read) {
-            wrong(table, key, "text");
-        }
-        return read.value_or("");
-    }
-
-  private:
-    void wrong(const toml::table& table, std::string_view key, std::string_view wanted) {
-        const toml::node* const node = table.get(key);
-        const auto line = (node != nullptr ? node->source() : table.source()).begin.line;
-        fail(node != nullptr ? fmt::format("line {}: {} should be {}", line, key, wanted)
-                             : fmt::format("line {}: {} is missing, {}", line, key, wanted));
-    }
-
-    std::string fault_;
-    toml::table nothing_;
-};
-
-void read_camera(Reader& reader, const toml::table& table, Scene& scene) {
+void read_camera(document::Reader& reader, const toml::table& table, Scene& scene) {
     reader.only_keys(table, "[camera]",
                      {"azimuth", "elevation", "roll", "distance", "target", "fov", "size", "projection"});
     view::Orbit& orbit = scene.viewpoint.orbit;
@@ -127,10 +38,10 @@ void read_camera(Reader& reader, const toml::table& table, Scene& scene) {
     };
     scene.size = {pixels(size[0]), pixels(size[1])};
     scene.viewpoint.projection =
-        static_cast<view::Projection>(reader.one_of(table, "projection", projections));
+        static_cast<view::Projection>(reader.one_of(table, "projection", view::projection_names));
 }
 
-void read_drawing(Reader& reader, const toml::table& table, Scene& scene) {
+void read_drawing(document::Reader& reader, const toml::table& table, Scene& scene) {
     reader.only_keys(
         table, "[drawing]",
         {"quality", "target_rate", "classify", "level_of_detail", "culling", "culling_threshold"});
@@ -148,7 +59,7 @@ void read_drawing(Reader& reader, const toml::table& table, Scene& scene) {
     scene.culling.threshold = reader.number(table, "culling_threshold");
 }
 
-void read_crop(Reader& reader, const toml::table& table, Scene& scene) {
+void read_crop(document::Reader& reader, const toml::table& table, Scene& scene) {
     reader.only_keys(table, "[crop]", {"first", "last"});
     const auto first = reader.numbers<3>(table, "first");
     const auto last = reader.numbers<3>(table, "last");
@@ -162,26 +73,20 @@ void read_crop(Reader& reader, const toml::table& table, Scene& scene) {
     }
 }
 
-void read_values(Reader& reader, const toml::table& table, Scene& scene) {
+void read_values(document::Reader& reader, const toml::table& table, Scene& scene) {
     reader.only_keys(table, "[values]", {"limits", "stretch"});
     const auto limits = reader.numbers<2>(table, "limits");
     const auto stretch = reader.one_of(table, "stretch", volume::stretch_names);
     scene.scaling = {limits[0], limits[1], static_cast<volume::Stretch>(stretch)};
 }
 
-void read_stereo(Reader& reader, const toml::table& table, Scene& scene) {
+void read_stereo(document::Reader& reader, const toml::table& table, Scene& scene) {
     reader.only_keys(table, "[stereo]", {"mode", "separation", "convergence", "swap"});
     Pair& pair = scene.stereo.emplace();
     pair.mode = static_cast<image::StereoMode>(reader.one_of(table, "mode", image::stereo_mode_names));
     pair.eyes.separation = reader.number(table, "separation");
     pair.eyes.convergence = reader.number(table, "convergence");
     pair.eyes.swap = reader.one_of(table, "swap", swaps) == 1;
-}
-
-// The shortest text that reads back as the same number.
-std::string number_text(double value) {
-    std::string digits = fmt::format("{}", value);
-    return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
 }
 
 std::string quoted(const std::string& text) {
@@ -196,16 +101,11 @@ std::string quoted(const std::string& text) {
 
 base::Result<Scene> scene_from_toml(std::string_view text, std::string_view source) {
     const std::string operation = fmt::format("read session {}", source);
-    if (text.size() > longest_text) {
-        return base::error(base::Code::too_large, operation, "more than 1 MiB");
+    const auto parsed = document::parse(text, operation, longest_text);
+    if (!parsed) {
+        return parsed.error();
     }
-    toml::table root;
-    try {
-        root = toml::parse(text);
-    } catch (const toml::parse_error& fault) {
-        return base::error(base::Code::corrupt, operation,
-                           fmt::format("line {}: {}", fault.source().begin.line, fault.description()));
-    }
+    const toml::table& root = *parsed;
     const auto refuse = [&](std::string what) {
         return base::error(base::Code::invalid_argument, operation, std::move(what));
     };
@@ -216,7 +116,7 @@ base::Result<Scene> scene_from_toml(std::string_view text, std::string_view sour
     if (*written != version) {
         return refuse(fmt::format("it is of version {}, and {} is known", *written, version));
     }
-    Reader reader;
+    document::Reader reader;
     reader.only_keys(
         root, "the session",
         {"version", "cube", "drawing", "values", "crop", "stereo", "transfer_function", "camera"});
@@ -289,7 +189,7 @@ std::string to_toml(const Scene& scene) {
         number_text(orbit.azimuth), number_text(orbit.elevation), number_text(orbit.roll),
         number_text(orbit.distance), number_text(orbit.target.x), number_text(orbit.target.y),
         number_text(orbit.target.z), number_text(scene.viewpoint.fov), scene.size.width, scene.size.height,
-        projections[static_cast<std::size_t>(scene.viewpoint.projection)]);
+        view::projection_names[static_cast<std::size_t>(scene.viewpoint.projection)]);
     return out;
 }
 

@@ -1,9 +1,8 @@
-#include <toml++/toml.h>
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
+#include "common/document/reader.h"
 #include "common/tree/topology.h"
 
 namespace shearwater::tree {
@@ -224,13 +223,12 @@ base::Result<Topology> read_topology(const toml::table& root, std::string_view s
 }  // namespace
 
 base::Result<Topology> topology_from_toml(std::string_view text, std::string_view source) {
-    try {
-        return read_topology(toml::parse(text), source);
-    } catch (const toml::parse_error& broken) {
-        std::ostringstream where;
-        where << broken.description() << " (line " << broken.source().begin.line << ")";
-        return fault(source, where.str());
+    constexpr std::size_t longest_text = std::size_t{4} << 20;
+    const auto root = document::parse(text, "topology " + std::string(source), longest_text);
+    if (!root) {
+        return root.error();
     }
+    return read_topology(*root, source);
 }
 
 }  // namespace shearwater::tree

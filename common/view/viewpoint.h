@@ -1,9 +1,15 @@
 #pragma once
 // Where a person looks from.
 
+#include <array>
+#include <string_view>
+
 #include "common/view/camera.h"
 
 namespace shearwater::view {
+
+// By number.
+inline constexpr std::array<std::string_view, 2> projection_names{"perspective", "parallel"};
 
 // An orbit about a target. One number, the distance, sets the scale of both projections, so that switching
 // between them keeps the picture's size: the parallel height is 2 distance sin(fov / 2).

@@ -82,7 +82,7 @@ TEST(Scene, WhatIsWrongIsSaidWithItsLine) {
     EXPECT_THAT(with("version = 1", "version = 1\nmode = 3"), HasSubstr("line 3: unknown key \"mode\""));
     EXPECT_THAT(with("roll = 12.0", "roll = \"much\""), HasSubstr("roll should be a number"));
     EXPECT_THAT(with("roll = 12.0\n", ""), HasSubstr("roll is missing"));
-    EXPECT_THAT(with("roll = 12.0", "roll = nan"), HasSubstr("angles"));
+    EXPECT_THAT(with("roll = 12.0", "roll = nan"), HasSubstr("roll should be a number"));
     EXPECT_THAT(with("elevation = 17.25", "elevation = 91"), HasSubstr("elevation"));
     EXPECT_THAT(with("fov = 42.5", "fov = 0"), HasSubstr("field of view"));
     EXPECT_THAT(with("size = [656, 614]", "size = [656, 61400]"), HasSubstr("8192"));

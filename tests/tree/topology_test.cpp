@@ -53,17 +53,18 @@ TEST(Topology, ReadsAFullTree) {
     EXPECT_EQ(topology->launcher, Launcher::local);
 }
 
-void expect_refused(std::string_view text, std::string_view because) {
+void expect_refused(std::string_view text, std::string_view because,
+                    base::Code code = base::Code::invalid_argument) {
     const auto topology = topology_from_toml(text, "t.toml");
     ASSERT_FALSE(topology) << text;
-    EXPECT_EQ(topology.error().code, base::Code::invalid_argument);
+    EXPECT_EQ(topology.error().code, code);
     EXPECT_NE(topology.error().message().find(because), std::string::npos) << topology.error().message();
     EXPECT_EQ(topology.error().message().find('\n'), std::string::npos);
 }
 
 TEST(Topology, SaysWhatIsWrong) {
     expect_refused("", "neither [tree] nor [[node]]");
-    expect_refused("[tree", "line 1");
+    expect_refused("[tree", "line 1", base::Code::corrupt);
     expect_refused("[tree]\nbranching = 65\nlevels = 2\n", "branching");
     expect_refused("[tree]\nbranching = 2\nlevels = 2\n[[node]]\nname = 'a'\nrole = 'renderer'\n",
                    "not both");

@@ -299,7 +299,7 @@ TEST(Toml, RefusesByName) {
     EXPECT_THAT(fault_of("[[opacity]]\nkind = \"flat\"\nheight = 7"), HasSubstr("opacity pin 1"));
     EXPECT_THAT(fault_of("[[colour]]\nat = 0"), HasSubstr("rgb"));
     EXPECT_THAT(fault_of("[[colour]]\nat = 0\nrgb = [0, 256, 0]"), HasSubstr("0 to 255"));
-    EXPECT_THAT(fault_of("[[colour]]\nat = 0\nrgb = [0, 0]"), HasSubstr("three numbers"));
+    EXPECT_THAT(fault_of("[[colour]]\nat = 0\nrgb = [0, 0]"), HasSubstr("3 numbers"));
     EXPECT_THAT(fault_of("colourmap = \"nope\""), HasSubstr("nope"));
     EXPECT_THAT(fault_of("colourmap = 3"), HasSubstr("colourmap"));
     EXPECT_THAT(fault_of("colourmap = \"grey\"\n[[colour]]\nat = 0\nrgb = [0, 0, 0]"), HasSubstr("not both"));
