@@ -138,13 +138,7 @@ Run add_frame(CLI::App& app) {
     flags->drawn.add_to(app);
     app.add_flag("--parallel", flags->parallel, "parallel projection");
     app.add_flag("--axes", flags->axes, "the first view alone, along each of the cube's axes");
-    flags->common.add_frames(app);
-    flags->common.add_image(app);
-    flags->common.add_quality(app);
-    flags->common.drawing.add_classify(app);
-    flags->common.drawing.add_lod(app);
-    flags->common.add_threads(app);
-    flags->common.add_json(app);
+    flags->common.add_pictures(app);
     return [flags] { return status_of("frame", frame(*flags)); };
 }
 

@@ -3,26 +3,17 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "deploy/bench/on_tree.h"
-#include "deploy/bench/options.h"
 #include "deploy/bench/paper.h"
+#include "deploy/bench/path_on_tree.h"
 #include "deploy/bench/report.h"
 #include "deploy/bench/subcommands.h"
 #include "deploy/bench/timing.h"
-#include "deploy/bench/workload.h"
-#include "deploy/progress_bar.h"
 
 namespace shearwater::bench {
 namespace {
 
-struct LargeFlags {
-    Options common;
-    std::vector<int> tree{32, 2};
-    std::int64_t edge = 2048;
-    std::string workload = "W1";
-};
-
-Record row(const LargeFlags& flags, const OnTree& tree, const deploy::Picture& picture) {
+Record row(const PathOnTree& flags, const PathOnTree::Drawn& drawn) {
+    const deploy::Picture& picture = drawn.picture;
     std::vector<double> totals;
     std::vector<double> renders;
     for (const deploy::Seconds& seconds : picture.each) {
@@ -42,9 +33,9 @@ Record row(const LargeFlags& flags, const OnTree& tree, const deploy::Picture& p
         .text("cube", std::to_string(flags.edge) + "^3")
         .text("tree", picture.tree)
         .aside("image", flags.common.image)
-        .aside("nodes", tree.nodes())
+        .aside("nodes", drawn.nodes)
         .aside("frames", flags.common.frames)
-        .count("renderers", static_cast<std::uint64_t>(tree.renderers()))
+        .count("renderers", static_cast<std::uint64_t>(drawn.renderers))
         .number("load_s", picture.seconds.load, 1)
         .number("median_s", total.median, 3)
         .number("min_s", total.least, 3)
@@ -59,53 +50,28 @@ Record row(const LargeFlags& flags, const OnTree& tree, const deploy::Picture& p
     return record;
 }
 
-base::Status large(const LargeFlags& flags) {
-    const auto view = flags.common.view(flags.edge);
-    if (!view) {
-        return view.error();
-    }
+base::Status large(const PathOnTree& flags) {
     auto report = Report::open("large", flags.common.json);
     if (!report) {
         return report.error();
     }
-    const Workload work = workload(flags.workload);
-    auto tree = OnTree::start(work.cube(flags.edge), flags.tree[0], flags.tree[1], flags.common.threads);
-    if (!tree) {
-        return tree.error();
+    const auto drawn = flags.draw();
+    if (!drawn) {
+        return drawn.error();
     }
-    const auto picture = [&] {
-        deploy::ProgressBar bar("making " + std::to_string(flags.edge) + "^3 voxels");
-        return tree->draw_path(*view, flags.common.frames, work.tf, [&](double share) { bar.show(share); });
-    }();
-    if (!picture) {
-        return picture.error();
-    }
-    report->add(row(flags, *tree, *picture));
+    report->add(row(flags, *drawn));
     return report->close();
 }
 
 }  // namespace
 
 Run add_large(CLI::App& app) {
-    auto flags = std::make_shared<LargeFlags>();
+    auto flags = std::make_shared<PathOnTree>(PathOnTree{.common = {}, .tree = {32, 2}, .edge = 2048});
     flags->common.frames = 3;
     app.add_option("--synthetic", flags->edge, "the cube's voxels along each axis")
         ->check(CLI::Range(std::int64_t{2}, std::int64_t{1} << 20U))
         ->capture_default_str();
-    app.add_option("--tree", flags->tree, "branching and levels")
-        ->delimiter(',')
-        ->expected(2)
-        ->allow_extra_args(false)
-        ->type_name("B,LEVELS")
-        ->default_str("32,2");
-    add_workload(app, flags->workload);
-    flags->common.add_frames(app);
-    flags->common.add_image(app);
-    flags->common.add_quality(app);
-    flags->common.drawing.add_classify(app);
-    flags->common.drawing.add_lod(app);
-    flags->common.add_threads(app);
-    flags->common.add_json(app);
+    flags->add_to(app);
     return [flags] { return status_of("large", large(*flags)); };
 }
 

@@ -46,6 +46,16 @@ void Options::add_quality(CLI::App& app) {
         ->capture_default_str();
 }
 
+void Options::add_pictures(CLI::App& app) {
+    add_frames(app);
+    add_image(app);
+    add_quality(app);
+    drawing.add_classify(app);
+    drawing.add_lod(app);
+    add_threads(app);
+    add_json(app);
+}
+
 base::Result<deploy::ViewOptions> Options::view(std::int64_t edge) const {
     deploy::ViewOptions made = first_view(edge);
     made.size = image;

@@ -25,6 +25,8 @@ struct Options {
     void add_in_flight(CLI::App& app);
     void add_image(CLI::App& app);
     void add_quality(CLI::App& app);
+    // What benchmarks of whole pictures take: all of it but how many are in flight.
+    void add_pictures(CLI::App& app);
 
     // first_view with these options' image, quality and ways of drawing, checked.
     base::Result<deploy::ViewOptions> view(std::int64_t edge) const;

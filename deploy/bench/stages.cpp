@@ -1,24 +1,12 @@
 // bench stages: the paper's Figure 8, where the time of one frame goes.
 
-#include "deploy/bench/on_tree.h"
-
-#include <CLI/CLI.hpp>
-#include "deploy/bench/options.h"
+#include "deploy/bench/path_on_tree.h"
 #include "deploy/bench/report.h"
 #include "deploy/bench/subcommands.h"
 #include "deploy/bench/timing.h"
-#include "deploy/bench/workload.h"
-#include "deploy/progress_bar.h"
 
 namespace shearwater::bench {
 namespace {
-
-struct StagesFlags {
-    Options common;
-    std::vector<int> tree{2, 3};
-    std::int64_t edge = 256;
-    std::string workload = "W1";
-};
 
 struct Stage {
     const char* name;
@@ -44,65 +32,41 @@ std::vector<Stage> stages_of(const deploy::Picture& picture) {
             {"total", s.total, "0.44 s of 128^3 by four"}};
 }
 
-base::Status stages(const StagesFlags& flags) {
-    const auto view = flags.common.view(flags.edge);
-    if (!view) {
-        return view.error();
-    }
+base::Status stages(const PathOnTree& flags) {
     auto report = Report::open("stages", flags.common.json);
     if (!report) {
         return report.error();
     }
-    const Workload work = workload(flags.workload);
-    auto tree = OnTree::start(work.cube(flags.edge), flags.tree[0], flags.tree[1], flags.common.threads);
-    if (!tree) {
-        return tree.error();
+    const auto drawn = flags.draw();
+    if (!drawn) {
+        return drawn.error();
     }
-    const auto picture = [&] {
-        deploy::ProgressBar bar(flags.workload);
-        return tree->draw_path(*view, flags.common.frames, work.tf, [&](double share) { bar.show(share); });
-    }();
-    if (!picture) {
-        return picture.error();
-    }
-    for (const Stage& stage : stages_of(*picture)) {
+    const deploy::Picture& picture = drawn->picture;
+    for (const Stage& stage : stages_of(picture)) {
         Record record;
         record.text("stage", stage.name, 17)
             .aside("cube", std::to_string(flags.edge) + "^3")
             .aside("workload", flags.workload)
             .aside("image", flags.common.image)
-            .aside("nodes", tree->nodes())
+            .aside("nodes", drawn->nodes)
             .aside("frames", flags.common.frames)
             .number("median_ms", stage.seconds * 1e3, 2)
-            .number("per_cent", 100 * stage.seconds / picture->seconds.total, 1)
+            .number("per_cent", 100 * stage.seconds / picture.seconds.total, 1)
             .text("paper", stage.paper);
         report->add(record);
     }
-    report->note("Windows: " + std::to_string(picture->window_bytes) +
-                 " bytes up the tree; the picture: " + std::to_string(picture->frame_bytes) + " bytes.");
+    report->note("Windows: " + std::to_string(picture.window_bytes) +
+                 " bytes up the tree; the picture: " + std::to_string(picture.frame_bytes) + " bytes.");
     return report->close();
 }
 
 }  // namespace
 
 Run add_stages(CLI::App& app) {
-    auto flags = std::make_shared<StagesFlags>();
+    auto flags = std::make_shared<PathOnTree>(PathOnTree{.common = {}, .tree = {2, 3}, .edge = 256});
     flags->common.image = "500x500";
-    app.add_option("--tree", flags->tree, "branching and levels")
-        ->delimiter(',')
-        ->expected(2)
-        ->allow_extra_args(false)
-        ->type_name("B,LEVELS")
-        ->default_str("2,3");
     add_size(app, flags->edge);
-    add_workload(app, flags->workload);
-    flags->common.add_frames(app);
-    flags->common.add_image(app);
-    flags->common.add_quality(app);
-    flags->common.drawing.add_classify(app);
-    flags->common.drawing.add_lod(app);
-    flags->common.add_threads(app);
-    flags->common.add_json(app);
+    flags->add_to(app);
     return [flags] { return status_of("stages", stages(*flags)); };
 }
 

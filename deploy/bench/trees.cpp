@@ -175,14 +175,8 @@ Run add_trees(CLI::App& app) {
         ->capture_default_str();
     add_workload(app, flags->workload);
     options::add_copies(app, flags->copies);
-    flags->common.add_frames(app);
     flags->common.add_in_flight(app);
-    flags->common.add_image(app);
-    flags->common.add_quality(app);
-    flags->common.drawing.add_classify(app);
-    flags->common.drawing.add_lod(app);
-    flags->common.add_threads(app);
-    flags->common.add_json(app);
+    flags->common.add_pictures(app);
     return [flags] { return status_of("trees", trees(*flags)); };
 }
 
