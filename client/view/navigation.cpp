@@ -98,7 +98,8 @@ void navigate_by_mouse(Desk& desk, const std::vector<EyeArea>& areas, ImVec2 fro
         return;
     }
     const Place place = place_of_mouse(desk, areas);
-    if (ImGui::IsItemActive()) {
+    // In the pass that presses the button the mouse may have come from afar.
+    if (ImGui::IsItemActive() && !ImGui::IsItemActivated()) {
         drag(desk, place);
     }
     if (!ImGui::IsItemHovered()) {

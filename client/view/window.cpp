@@ -68,13 +68,16 @@ Window::Window(GLFWwindow* window, float scale, bool has_quad_buffers)
     ImGui::GetIO().IniFilename = nullptr;
     fonts_ = theme::apply(scale_);
     glfwSetWindowUserPointer(window_, this);
-    // ImGui's, set below, call them too.
     glfwSetKeyCallback(window_, on_key);
+    glfwSetCharCallback(window_, on_character);
     glfwSetMouseButtonCallback(window_, on_button);
     glfwSetCursorPosCallback(window_, on_cursor);
     glfwSetDropCallback(window_, on_drop);
     glfwSetWindowRefreshCallback(window_, on_uncovered);
-    ImGui_ImplGlfw_InitForOpenGL(window_, true);
+    glfwSetWindowFocusCallback(window_, ImGui_ImplGlfw_WindowFocusCallback);
+    glfwSetCursorEnterCallback(window_, ImGui_ImplGlfw_CursorEnterCallback);
+    glfwSetScrollCallback(window_, ImGui_ImplGlfw_ScrollCallback);
+    ImGui_ImplGlfw_InitForOpenGL(window_, false);
     ImGui_ImplOpenGL3_Init("#version 150");
 }
 
@@ -103,8 +106,9 @@ void Window::on_key(GLFWwindow* window, int key, int, int action, int mods) {
             self.full_screen_.toggle(window);
         }
     } else if (action != GLFW_RELEASE) {
-        self.keys_.push_back({key, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0});
-        self.struck_.push_back(key);
+        self.events_.key({key, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0});
+    } else {
+        self.events_.release(key);
     }
     if (action == GLFW_RELEASE) {
         self.with_control_.erase(key);
@@ -113,14 +117,18 @@ void Window::on_key(GLFWwindow* window, int key, int, int action, int mods) {
     }
 }
 
+void Window::on_character(GLFWwindow* window, unsigned character) {
+    static_cast<Window*>(glfwGetWindowUserPointer(window))->events_.type(character);
+}
+
 // Asked for, a place would be the mouse's of now, wherever what is being told of happened.
 void Window::on_cursor(GLFWwindow* window, double x, double y) {
     static_cast<Window*>(glfwGetWindowUserPointer(window))
-        ->buttons_.move(static_cast<float>(x), static_cast<float>(y));
+        ->events_.move(static_cast<float>(x), static_cast<float>(y));
 }
 
 void Window::on_button(GLFWwindow* window, int button, int action, int) {
-    static_cast<Window*>(glfwGetWindowUserPointer(window))->buttons_.add(button, action == GLFW_PRESS);
+    static_cast<Window*>(glfwGetWindowUserPointer(window))->events_.button(button, action == GLFW_PRESS);
 }
 
 // More at once than a person means are passed over.
@@ -143,22 +151,14 @@ bool Window::is_down(int key) const {
            !held(GLFW_KEY_RIGHT_CONTROL);
 }
 
-// Dear ImGui sees only keys that are down in a pass: those that were down for less are, in one.
+// What happened after what is still to be played comes after it.
 void Window::begin(double wait_seconds) {
-    bool* const down = ImGui::GetIO().KeysDown;
-    for (const int key : std::exchange(held_over_, {})) {
-        down[key] = glfwGetKey(window_, key) == GLFW_PRESS;
-    }
-    glfwWaitEventsTimeout(buttons_.are_behind() ? 0 : wait_seconds);
-    for (const int key : std::exchange(struck_, {})) {
-        if (key >= 0 && key <= GLFW_KEY_LAST && !down[key]) {
-            down[key] = true;
-            held_over_.push_back(key);
-        }
+    if (!events_.are_behind()) {
+        glfwWaitEventsTimeout(wait_seconds);
     }
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
-    buttons_.play(ImGui::GetIO());
+    events_.play(ImGui::GetIO());
     ImGui::NewFrame();
 }
 
@@ -187,6 +187,9 @@ void Window::draw_here() {
 
 bool Window::draw(const Drawing& drawing) {
     ImGui::Render();
+    if (events_.are_behind() && !drawing.anyway) {
+        return false;
+    }
     std::size_t drawn = likeness(*ImGui::GetDrawData());
     boost::hash_combine(drawn, drawing.uploads);
     boost::hash_combine(drawn, drawing.for_each_eye);

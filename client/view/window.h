@@ -11,7 +11,7 @@
 
 #include "client/view/eye_gates.h"
 #include "client/view/full_screen.h"
-#include "client/view/mouse_buttons.h"
+#include "client/view/input_events.h"
 #include "client/view/theme.h"
 #include "common/base/result.h"
 #include "common/image/image.h"
@@ -24,12 +24,6 @@ struct WindowOptions {
     int width = 1280;
     int height = 800;
     float scale = 0;  // 0: the display's
-};
-
-// A key that went down, or repeats.
-struct KeyPress {
-    int key;  // GLFW's number
-    bool shift, control;
 };
 
 // One at a time; everything from the thread that opened it, except wake(). F11 has it fill its display.
@@ -45,7 +39,7 @@ class Window {
     // Waits for input, a wake() or the time to pass, then begins a pass of widgets.
     void begin(double wait_seconds);
     // The keys pressed since the last call, however short.
-    std::vector<KeyPress> take_keys() { return std::exchange(keys_, {}); }
+    std::vector<KeyPress> take_keys() { return events_.take_keys(); }
     // Whether a key is held down now that was pressed without a control key, and none is held with it.
     bool is_down(int key) const;
     // Files that were dropped on the window since the last call.
@@ -60,7 +54,8 @@ class Window {
         bool anyway = false;        // though it may be what is seen already
     };
     // Draws the pass to the hidden buffer, to be seen after show(); false, and nothing is to be shown here or
-    // in a window beside, where it would look like the last that was drawn.
+    // in a window beside, where it would look like the last that was drawn or the mouse has to be caught up
+    // with.
     bool draw(const Drawing& drawing);
     // Draws it as one eye sees it, to the buffer that is drawn to now.
     void draw_for(Eye eye);
@@ -84,6 +79,7 @@ class Window {
   private:
     Window(GLFWwindow* window, float scale, bool has_quad_buffers);
     static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
+    static void on_character(GLFWwindow* window, unsigned character);
     static void on_cursor(GLFWwindow* window, double x, double y);
     static void on_button(GLFWwindow* window, int button, int action, int mods);
     static void on_drop(GLFWwindow* window, int count, const char** paths);
@@ -95,11 +91,8 @@ class Window {
     theme::Fonts fonts_;
     EyeGates gates_;
     FullScreen full_screen_;
-    MouseButtons buttons_;
-    std::vector<KeyPress> keys_;
+    InputEvents events_;
     std::set<int> with_control_;  // keys that went down so, and are down
-    std::vector<int> struck_;     // keys that went down since the last pass
-    std::vector<int> held_over_;  // keys that were up again before the pass they are down in
     std::vector<std::string> drops_;
     std::optional<std::uint64_t> drawn_;  // what is seen, if all of it still is
 };

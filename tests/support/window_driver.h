@@ -54,7 +54,7 @@ class Display {
     // A key is held for some passes: Dear ImGui knows only of what is down in one.
     // The mouse is in the upper left corner before and after each of these: its pointer is on the screen.
     void key(const std::string& name) { xdotool({"key", "--delay", "400", name}); }
-    // Too short for Dear ImGui; the window has it.
+    // Shorter than many a pass.
     void tap(const std::string& name) { xdotool({"key", "--delay", "20", name}); }
     // Characters, wherever they are typed into.
     void type(const std::string& text) { xdotool({"type", "--delay", "30", "--", text}); }

@@ -1,8 +1,11 @@
-// What a mouse's buttons did during a pass, however long, reaches Dear ImGui where it was done.
+// What was done with mouse and keys during a pass, however long, reaches Dear ImGui in its order.
 
-#include "client/view/mouse_buttons.h"
+#include "client/view/input_events.h"
+
+#include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -11,7 +14,7 @@
 namespace shearwater::ui {
 namespace {
 
-class MouseButtonsTest : public GraphicsTest {
+class InputEventsTest : public GraphicsTest {
   protected:
     // What a pass saw of a button of Dear ImGui's that fills the window.
     struct Pass {
@@ -44,7 +47,7 @@ class MouseButtonsTest : public GraphicsTest {
     }
 };
 
-TEST_F(MouseButtonsTest, ADragIsAsLongAsItWasThoughItIsSeenAtItsEnd) {
+TEST_F(InputEventsTest, ADragIsAsLongAsItWasThoughItIsSeenAtItsEnd) {
     const auto passes = passes_after([&] { display_->drag(1, 100, 200, 60, -30); });
     const auto first = std::ranges::find(passes, true, &Pass::activated);
     const auto last = std::ranges::find(passes, true, &Pass::deactivated);
@@ -64,7 +67,7 @@ TEST_F(MouseButtonsTest, ADragIsAsLongAsItWasThoughItIsSeenAtItsEnd) {
     EXPECT_EQ(passes.back().mouse.x, 1) << "then it is seen where it is";
 }
 
-TEST_F(MouseButtonsTest, PressesAreAsManyAsTheyWereAndWhereTheyWere) {
+TEST_F(InputEventsTest, PressesAreAsManyAsTheyWereAndWhereTheyWere) {
     const auto passes = passes_after([&] {
         display_->click(50, 60, 2);
         display_->click(300, 200);
@@ -79,11 +82,67 @@ TEST_F(MouseButtonsTest, PressesAreAsManyAsTheyWereAndWhereTheyWere) {
     EXPECT_FALSE(passes.back().active);
 }
 
-TEST(MouseButtons, OfButtonsThatAreNotKnownNothingIsKept) {
-    MouseButtons buttons;
-    buttons.add(7, true);
-    buttons.add(-1, true);
-    EXPECT_FALSE(buttons.are_behind());
+// Selected, overwritten, gone through and mended, all before a pass.
+TEST_F(InputEventsTest, KeysAndWhatTheyTypeComeInTheirOrder) {
+    std::array<char, 64> text{"before"};
+    const auto field = [&] {
+        window_->begin(0.01);
+        ImGui::SetNextWindowPos({0, 0});
+        ImGui::SetNextWindowSize({480, 320});
+        ImGui::Begin("all", nullptr, ImGuiWindowFlags_NoDecoration);
+        ImGui::SetCursorScreenPos({10, 10});
+        ImGui::InputText("##field", text.data(), text.size());
+        ImGui::End();
+        window_->draw({});
+    };
+    for (int n = 0; n < 10; ++n) {
+        field();
+    }
+    display_->click(50, 18);
+    display_->tap("ctrl+a");
+    display_->type("Yello W");
+    display_->tap("Home");
+    display_->tap("Delete");
+    display_->type("H");
+    display_->tap("End");
+    display_->tap("BackSpace");
+    display_->tap("BackSpace");
+    display_->type("!");
+    for (int n = 0; n < 200; ++n) {
+        field();
+    }
+    EXPECT_STREQ(text.data(), "Hello!");
+    std::vector<int> pressed;
+    for (const KeyPress& press : window_->take_keys()) {
+        if (press.control) {
+            pressed.push_back(press.key);
+        }
+    }
+    EXPECT_EQ(pressed, std::vector<int>{GLFW_KEY_A});
+}
+
+TEST(InputEvents, WhatIsNotKnownIsNotKept) {
+    InputEvents events;
+    events.button(7, true);
+    events.button(-1, true);
+    events.key({GLFW_KEY_UNKNOWN, false, false});
+    events.release(GLFW_KEY_LAST + 1);
+    EXPECT_FALSE(events.are_behind());
+}
+
+TEST(InputEvents, AModifierIsDownWithTheKeyThatItCameBefore) {
+    InputEvents events;
+    ImGuiIO io;
+    events.key({GLFW_KEY_LEFT_CONTROL, false, true});
+    events.key({GLFW_KEY_A, false, true});
+    events.release(GLFW_KEY_LEFT_CONTROL);
+    events.release(GLFW_KEY_A);
+    events.play(io);
+    EXPECT_TRUE(io.KeyCtrl && io.KeysDown[GLFW_KEY_A]);
+    events.play(io);
+    EXPECT_FALSE(io.KeyCtrl);
+    EXPECT_FALSE(io.KeysDown[GLFW_KEY_A]) << "a modifier's own end is not waited for";
+    EXPECT_FALSE(events.are_behind());
 }
 
 }  // namespace
