@@ -1,11 +1,10 @@
 #pragma once
-// Reading TOML documents that people write and programs keep: what is found wrong first is told with its
-// line.
+// Reading TOML documents that people write and programs keep: what is found wrong first is told with the
+// line it is on.
 
 #include <toml++/toml.h>
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <initializer_list>
 #include <span>
