@@ -131,9 +131,9 @@ class PathReader {
             const auto limits = reader_.numbers<2>(table, "limits");
             key.scaling = {limits[0], limits[1], key.scaling.value_or(volume::Scaling{}).stretch};
         }
-        if (table.contains("stretch")) {
+        if (const toml::node* node = table.get("stretch")) {
             if (!key.scaling) {
-                return reader_.fail(table, "a stretch needs limits");
+                return reader_.fail(*node, "a stretch needs limits");
             }
             key.scaling->stretch =
                 static_cast<volume::Stretch>(reader_.one_of(table, "stretch", volume::stretch_names));

@@ -51,7 +51,7 @@ class Display {
     const std::string& name() const { return name_; }  // ":7"
     Picture grab() const;
 
-    // A key is held for some passes: Dear ImGui knows only of what is down in one.
+    // A key, held as long as a person holds it.
     // The mouse is in the upper left corner before and after each of these: its pointer is on the screen.
     void key(const std::string& name) { xdotool({"key", "--delay", "400", name}); }
     // Shorter than many a pass.
