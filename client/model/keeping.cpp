@@ -1,7 +1,6 @@
 #include "client/model/keeping.h"
 
 #include <algorithm>
-#include <charconv>
 
 namespace shearwater::model {
 
@@ -83,27 +82,18 @@ std::string stem_for(const Cube& cube) {
     return name.empty() || name.front() == '.' ? "cube" + name : name;
 }
 
-std::string autosave_name(const Cube& cube, std::uint64_t process) {
-    return prefix_for(cube) + std::to_string(process) + std::string(ending);
+std::string autosave_name(const Cube& cube, int number) {
+    return prefix_for(cube) + std::to_string(number) + std::string(ending);
 }
 
-std::vector<std::string> left_behind(const std::vector<std::string>& names, const Cube& cube,
-                                     const std::function<bool(std::uint64_t process)>& runs) {
+bool is_autosave(const std::string& name, const Cube& cube) {
     const std::string prefix = prefix_for(cube);
-    std::vector<std::string> left;
-    for (const std::string& name : names) {
-        if (!name.starts_with(prefix) || !name.ends_with(ending) ||
-            name.size() <= prefix.size() + ending.size()) {
-            continue;
-        }
-        const char* const end = name.data() + name.size() - ending.size();
-        std::uint64_t process = 0;
-        const auto read = std::from_chars(name.data() + prefix.size(), end, process);
-        if (read.ec == std::errc{} && read.ptr == end && !runs(process)) {
-            left.push_back(name);
-        }
+    if (!name.starts_with(prefix) || !name.ends_with(ending) ||
+        name.size() <= prefix.size() + ending.size()) {
+        return false;
     }
-    return left;
+    const std::string_view number(name.data() + prefix.size(), name.size() - prefix.size() - ending.size());
+    return number.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
 bool Autosave::due(const scene::Scene& scene, wire::Time now) {

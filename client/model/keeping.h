@@ -2,10 +2,8 @@
 // What is kept of a window: for undo, in a file, and in one that is left behind should the window not end
 // well.
 
-#include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "client/model/crop.h"
 #include "client/model/session.h"
@@ -34,11 +32,11 @@ std::string stem_for(const Cube& cube);
 
 // ---- left behind after a crash ----
 
-// A window keeps its scene in a file of its own name while it is open, and removes it at its end.
-std::string autosave_name(const Cube& cube, std::uint64_t process);
-// Of files' names those left by windows on the same cube whose processes do not run any more.
-std::vector<std::string> left_behind(const std::vector<std::string>& names, const Cube& cube,
-                                     const std::function<bool(std::uint64_t process)>& runs);
+// A window keeps its scene in a file of its own while it is open, and removes it at its end: the `number`th
+// of those on the cube.
+std::string autosave_name(const Cube& cube, int number);
+// Whether that is the name of a file that some window on the cube keeps.
+bool is_autosave(const std::string& name, const Cube& cube);
 
 // When to keep it.
 class Autosave {

@@ -55,7 +55,7 @@ void Files::take(Desk& desk, const Keeper::Outcome& outcome) {
             break;
         }
         case Keeper::Outcome::Kind::offered:
-            offered_ = outcome;
+            offered_ = outcome.scene;
             break;
     }
 }
@@ -102,9 +102,9 @@ void Files::attend(Desk& desk, const std::vector<std::string>& dropped,
     }
     if (offered_ && (wishes.restore || wishes.dismiss)) {
         if (wishes.restore) {
-            apply(desk, *offered_->scene);
+            apply(desk, *offered_);
         }
-        keeper_.forget(offered_->path);
+        keeper_.forget_left_behind();
         offered_.reset();
     }
     if (autosave_.due(scene, desk.now)) {

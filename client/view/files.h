@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "client/model/keeping.h"
 #include "client/view/desk.h"
 #include "client/view/keeper.h"
 
@@ -27,7 +28,7 @@ class Files {
 
     Keeper keeper_;
     model::Autosave autosave_;
-    std::optional<Keeper::Outcome> offered_;
+    std::optional<scene::Scene> offered_;
     std::optional<std::string> looked_for_;  // the cube's name
     bool picture_wanted_ = false;
 };

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "client/model/keeping.h"
 #include "client/model/status.h"
+#include "client/view/autosaves.h"
 #include "client/view/errands.h"
 #include "common/scene/scene.h"
 
@@ -16,7 +16,7 @@ namespace shearwater::ui {
 class Keeper {
   public:
     // `wake` is called from the keeper's thread when there is something to collect.
-    explicit Keeper(std::function<void()> wake) : errands_(std::move(wake)) {}
+    explicit Keeper(std::function<void()> wake);
     ~Keeper();  // finishes what is asked for, and forgets the autosave: this window has ended well
     Keeper(const Keeper&) = delete;
     Keeper& operator=(const Keeper&) = delete;
@@ -30,19 +30,19 @@ class Keeper {
     void autosave(const model::Cube& cube, const scene::Scene& scene);
     // What windows on the cube have left behind that did not end well: the newest is offered.
     void look_for(const model::Cube& cube);
-    void forget(const std::string& path);
+    void forget_left_behind();
 
     // What came of one of these, in their order.
     struct Outcome {
         enum class Kind { said, failed, opened, offered } kind;
-        std::string words;  // what was done, or what is wrong
-        std::string path;
+        std::string words;                  // what was done, or what is wrong
+        std::string path;                   // of what was saved or opened
         std::optional<scene::Scene> scene;  // opened or offered
     };
     std::optional<Outcome> collect() { return errands_.collect(); }
 
   private:
-    std::string autosaved_;  // the keeper's thread's
+    std::optional<Autosaves> autosaves_;  // the keeper's thread's; none where nobody has a home
     Errands<Outcome> errands_;
 };
 

@@ -33,17 +33,28 @@ Result<std::string> read_text_file(const std::string& path, std::size_t most_byt
     return text;
 }
 
+Status make_own_folder(const std::filesystem::path& folder) {
+    namespace fs = std::filesystem;
+    std::error_code failed;
+    if (fs::exists(folder, failed)) {
+        return {};
+    }
+    fs::create_directories(folder, failed);
+    if (failed) {
+        return error(Code::io, "make folder " + folder.string(), failed.message());
+    }
+    fs::permissions(folder, fs::perms::owner_all, failed);
+    return {};
+}
+
 Status write_text_file(const std::string& path, std::string_view text) {
     namespace fs = std::filesystem;
     const std::string operation = "write " + path;
     std::error_code failed;
-    if (const fs::path folder = fs::path(path).parent_path();
-        !folder.empty() && !fs::exists(folder, failed)) {
-        fs::create_directories(folder, failed);
-        if (failed) {
-            return error(Code::io, operation, failed.message());
+    if (const fs::path folder = fs::path(path).parent_path(); !folder.empty()) {
+        if (const auto made = make_own_folder(folder); !made) {
+            return error(Code::io, operation, made.error().detail);
         }
-        fs::permissions(folder, fs::perms::owner_all, failed);
     }
     const std::string part = path + "." + std::to_string(getpid()) + ".part";
     std::ofstream file(part, std::ios::binary | std::ios::trunc);

@@ -2,7 +2,6 @@
 
 #include "client/model/keeping.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "client/model/history.h"
@@ -12,8 +11,6 @@ namespace shearwater::model {
 namespace {
 
 using namespace std::chrono_literals;
-using testing::ElementsAre;
-using testing::IsEmpty;
 
 const view::Lattice kept_lattice{.n = {64, 32, 16}};
 constexpr wire::Time start = wire::Time{} + 1000s;
@@ -178,18 +175,18 @@ TEST(Keeping, FilesAreNamedAfterTheCube) {
     EXPECT_LE(stem_for(cube_named(std::string(5000, 'x'))).size(), 100U);
 }
 
-TEST(Keeping, WhatDeadWindowsOnTheSameCubeLeftIsFound) {
+TEST(Keeping, AutosavesAreKnownByTheirNames) {
     const Cube cube = cube_named("galaxy.fits");
     Cube larger = cube;
     larger.lattice.n = {65, 32, 16};
-    const std::vector<std::string> names{
-        autosave_name(cube, 7),       autosave_name(cube, 8),
-        autosave_name(larger, 9),     "7500.secret",
-        autosave_name(cube, 7) + "~", autosave_name(cube_named("other.fits"), 9),
-        "galaxy-x.autosave.toml",     autosave_name(cube, 9) + ".1.part"};
-    const auto runs = [](std::uint64_t process) { return process == 8; };
-    EXPECT_THAT(left_behind(names, cube, runs), ElementsAre(autosave_name(cube, 7)));
-    EXPECT_THAT(left_behind(names, cube_named("third.fits"), runs), IsEmpty());
+    EXPECT_TRUE(is_autosave(autosave_name(cube, 7), cube));
+    EXPECT_TRUE(is_autosave(autosave_name(cube, 1000), cube));
+    for (const std::string& name :
+         {autosave_name(larger, 9), std::string("7500.secret"), autosave_name(cube, 7) + "~",
+          autosave_name(cube, 7) + ".lock", autosave_name(cube_named("other.fits"), 9),
+          std::string("galaxy-x.autosave.toml"), autosave_name(cube, 9) + ".1.part"}) {
+        EXPECT_FALSE(is_autosave(name, cube)) << name;
+    }
 }
 
 TEST(Autosave, IsDueWhenSomethingHasChangedAndNotTooOften) {

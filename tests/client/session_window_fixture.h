@@ -28,6 +28,7 @@ class SessionWindowTest : public WindowTest {
         return path;
     }
     void open(std::vector<std::string> more) {
+        std::filesystem::remove(folder_ / "controls");  // an earlier window's
         window_ =
             std::make_unique<test::Process>(client(std::move(more)), environment_, folder_ / "client.log");
         control("camera/Fit");  // is there
@@ -44,7 +45,9 @@ class SessionWindowTest : public WindowTest {
             last = read ? *read : last;
             return read && holds(*read) && *read == before;
         });
-        EXPECT_TRUE(seen) << what << ":\n" << scene::to_toml(last) << text_of(folder_ / "client.log");
+        EXPECT_TRUE(seen) << what << ":\n"
+                          << scene::to_toml(last) << text_of(folder_ / "client.log")
+                          << text_of(folder_ / "tree.log");
         return last;
     }
 

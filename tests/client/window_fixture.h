@@ -224,7 +224,9 @@ class WindowTest : public testing::Test {
                 }
             }
         } while (std::chrono::steady_clock::now() < end);
-        ADD_FAILURE() << "there is no " << name << " among\n" << text_of(folder_ / "controls");
+        ADD_FAILURE() << "there is no " << name << ":\n"
+                      << text_of(folder_ / "client.log") << text_of(folder_ / "tree.log") << "among\n"
+                      << text_of(folder_ / "controls");
         return {1, 1};
     }
     bool has_control(const std::string& name) const {
