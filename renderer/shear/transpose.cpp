@@ -74,15 +74,27 @@ HWY_INLINE void turn_block(const Code* from, std::ptrdiff_t stride, int rows, Co
 #if HWY_TARGET != HWY_SCALAR && HWY_CAP_GE512
 constexpr int line = 64;
 
-// So many blocks of 16 rows of a line: what is adjacent in a column of all of them is written at once.
-template <int blocks>
+// Rows to be fetched, one for each that is turned.
+struct NextRows {
+    const char* first;
+    std::ptrdiff_t stride;
+};
+
+// So many blocks of 16 rows of a line: what is adjacent in a column of all of them is written at once. Few
+// lines can be on their way before more have to wait: the next are asked for as rows are read, not together.
+template <int blocks, bool next_of_two_lines>
 HWY_INLINE void turn_lines(const std::uint8_t* from, std::ptrdiff_t stride, std::uint8_t* to,
-                           std::ptrdiff_t to_stride) {
+                           std::ptrdiff_t to_stride, NextRows next) {
     const hn::Full512<std::uint8_t> d;
     using V = hn::Vec<decltype(d)>;
     V a[blocks][side];
     for (int n = 0; n < blocks; ++n) {
         for (int i = 0; i < side; ++i) {
+            const char* const row = next.first + (n * side + i) * next.stride;
+            __builtin_prefetch(row, 0, 2);
+            if constexpr (next_of_two_lines) {
+                __builtin_prefetch(row + line, 0, 2);
+            }
             a[n][i] = hn::LoadU(d, from + (n * side + i) * stride);
         }
         turn_vectors(d, a[n]);
@@ -123,6 +135,35 @@ HWY_INLINE void turn_lines(const std::uint8_t* from, std::ptrdiff_t stride, std:
         }
     }
 }
+
+// A line of each of some rows, of 16 at least.
+template <bool next_of_two_lines>
+HWY_INLINE void turn_column_of_lines(const std::uint8_t* from, std::ptrdiff_t stride, int rows,
+                                     std::uint8_t* to, std::ptrdiff_t to_stride, NextRows next) {
+    // What is written across two lines of the cache takes twice as long.
+    const auto until_line = [&](int row) HWY_ATTR {
+        const auto at = static_cast<int>(reinterpret_cast<std::uintptr_t>(to + row) % line);
+        return at % side == 0 ? line - at : line;
+    };
+    for (int row = 0; row < rows;) {
+        const int left = std::min(rows - row, until_line(row));
+        const int blocks = left >= 4 * side ? 4 : left >= 2 * side ? 2 : 1;
+        // The last may lie partly over the one before.
+        const int at = std::min(row, rows - blocks * side);
+        const auto turn_some = [&](auto count) HWY_ATTR {
+            turn_lines<count, next_of_two_lines>(from + at * stride, stride, to + at, to_stride,
+                                                 {next.first + at * next.stride, next.stride});
+        };
+        if (blocks == 4) {
+            turn_some(std::integral_constant<int, 4>());
+        } else if (blocks == 2) {
+            turn_some(std::integral_constant<int, 2>());
+        } else {
+            turn_some(std::integral_constant<int, 1>());
+        }
+        row = at + blocks * side;
+    }
+}
 #endif
 
 void turn_8(const Matrix<std::uint8_t>& from, std::uint8_t* to, std::ptrdiff_t column_stride,
@@ -135,44 +176,29 @@ void turn_8(const Matrix<std::uint8_t>& from, std::uint8_t* to, std::ptrdiff_t c
     const auto first = [&](int column, int row)
                            HWY_ATTR { return from.first + row * from.row_stride + column; };
     const auto turned = [&](int column, int row) HWY_ATTR { return to + column * column_stride + row; };
-    Fetching fetching(ahead, block_rows / side * (block_columns / side));
-    const auto fetch = [&](int blocks) HWY_ATTR {
-        for (int n = 0; n < blocks; ++n) {
-            fetching.step<Into::second>();
-        }
-    };
     int column = 0;
+    bool fetches = true;
 #if HWY_TARGET != HWY_SCALAR && HWY_CAP_GE512
-    // What is written across two lines of the cache takes twice as long.
-    const auto until_line = [&](int row) HWY_ATTR {
-        const auto at = static_cast<int>(reinterpret_cast<std::uintptr_t>(turned(column, row)) % line);
-        return at % side == 0 ? line - at : line;
-    };
     for (; from.rows >= side && column + line <= block_columns; column += line) {
-        const int covered = std::min(block_rows, from.rows);
-        for (int row = 0; row < covered;) {
-            const int left = std::min(covered - row, until_line(row));
-            const int blocks = left >= 4 * side ? 4 : left >= 2 * side ? 2 : 1;
-            // The last may lie partly over the one before.
-            const int at = std::min(row, from.rows - blocks * side);
-            fetch(blocks * (line / side));
-            const auto turn_some = [&](auto count) HWY_ATTR {
-                turn_lines<count>(first(column, at), from.row_stride, turned(column, at), column_stride);
-            };
-            if (blocks == 4) {
-                turn_some(std::integral_constant<int, 4>());
-            } else if (blocks == 2) {
-                turn_some(std::integral_constant<int, 2>());
-            } else {
-                turn_some(std::integral_constant<int, 1>());
-            }
-            row = at + blocks * side;
+        const int rows = std::min(block_rows, from.rows);
+        const auto turn_with = [&](auto two_lines, NextRows next) HWY_ATTR {
+            turn_column_of_lines<two_lines>(first(column, 0), from.row_stride, rows, turned(column, 0),
+                                            column_stride, next);
+        };
+        if (!fetches || ahead.lines == 0) {  // what is read next itself
+            turn_with(std::false_type(), {reinterpret_cast<const char*>(first(column, 0)), from.row_stride});
+        } else if (ahead.lines == 1) {
+            turn_with(std::false_type(), {ahead.first, ahead.row_stride});
+        } else {
+            turn_with(std::true_type(), {ahead.first, ahead.row_stride});
         }
+        fetches = false;
     }
 #endif
+    Fetching fetching(fetches ? ahead : Ahead(), block_rows / side * (block_columns / side));
     for (; column < block_columns; column += side) {
         for (int row = 0; row < block_rows; row += side) {
-            fetch(1);
+            fetching.step<Into::second>();
             turn_block(first(column, row), from.row_stride, std::min(side, from.rows - row),
                        turned(column, row), column_stride);
         }
