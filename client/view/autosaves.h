@@ -23,7 +23,8 @@ class Autosaves {
     // In the place of this window's last one. Where it cannot be kept, it is not.
     void keep(const model::Cube& cube, const scene::Scene& scene);
     // The newest that a window on the cube has left behind; older ones and what cannot be read are removed.
-    // It is this window's to offer, and no other's, until it is forgotten or the window ends.
+    // It is this window's to offer, and no other's, until it is forgotten, another is looked for or the window
+    // ends.
     std::optional<scene::Scene> left_behind(const model::Cube& cube);
     void forget_left_behind();
 

@@ -76,6 +76,7 @@ void Files::attend(Desk& desk, const std::vector<std::string>& dropped,
     const model::Cube& cube = *desk.status.cube;
     if (looked_for_ != cube.name) {
         looked_for_ = cube.name;
+        offered_.reset();
         keeper_.look_for(cube);
         if (desk.file[0] == '\0') {
             name_file(desk, model::stem_for(cube) + std::string(session_ending));

@@ -15,8 +15,8 @@ Result<std::string> read_text_file(const std::string& path, std::size_t most_byt
 // Makes the folder and those on the way to it where they are missing, the last for nobody else to read.
 Status make_own_folder(const std::filesystem::path& folder);
 
-// Puts the text in the place of whatever the file held: whole, or not at all. Its folder
-// is made where it is missing.
+// Puts the text in the place of whatever the file held: whole, or not at all. Its folder is made where it is
+// missing.
 Status write_text_file(const std::string& path, std::string_view text);
 
 }  // namespace shearwater::base
