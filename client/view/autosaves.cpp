@@ -8,10 +8,14 @@ namespace shearwater::ui {
 
 namespace fs = std::filesystem;
 
+void Autosaves::File::remove() const {
+    std::error_code none;
+    fs::remove(path, none);
+}
+
 Autosaves::~Autosaves() {
     if (own_) {
-        std::error_code none;
-        fs::remove(own_->path, none);
+        own_->remove();
     }
 }
 
@@ -22,8 +26,7 @@ void Autosaves::keep(const model::Cube& cube, const scene::Scene& scene) {
             return;
         }
         if (own_) {
-            std::error_code none;
-            fs::remove(own_->path, none);
+            own_->remove();
         }
         own_ = std::move(claimed);
     }
@@ -48,7 +51,7 @@ std::optional<scene::Scene> Autosaves::left_behind(const model::Cube& cube) {
             newest_time = time;
             newest = *std::move(read);
         } else {
-            fs::remove(file->path, none);
+            file->remove();
         }
     }
     return newest;
@@ -56,8 +59,7 @@ std::optional<scene::Scene> Autosaves::left_behind(const model::Cube& cube) {
 
 void Autosaves::forget_left_behind() {
     if (offered_) {
-        std::error_code none;
-        fs::remove(offered_->path, none);
+        offered_->remove();
         offered_.reset();
     }
 }

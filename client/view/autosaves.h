@@ -23,8 +23,8 @@ class Autosaves {
     // In the place of this window's last one. Where it cannot be kept, it is not.
     void keep(const model::Cube& cube, const scene::Scene& scene);
     // The newest that a window on the cube has left behind; older ones and what cannot be read are removed.
-    // It is this window's to offer, and no other's, until it is forgotten, another is looked for or the window
-    // ends.
+    // It is this window's to offer, and no other's, until it is forgotten, another is looked for or the
+    // window ends.
     std::optional<scene::Scene> left_behind(const model::Cube& cube);
     void forget_left_behind();
 
@@ -33,6 +33,8 @@ class Autosaves {
     struct File {
         std::filesystem::path path;
         base::FileLock lock;
+
+        void remove() const;
     };
     std::optional<File> claim(const std::string& name) const;
     std::optional<File> claim_new(const model::Cube& cube) const;

@@ -120,7 +120,7 @@ TEST_F(AutosavesTest, TheNewestIsOfferedAndOthersRemoved) {
     };
     crash(cube_, turned(1));
     aged(std::chrono::hours(2));
-    // Each after what the last one would have been offered, and did not ask for.
+    // Windows that looked for nothing.
     crash(cube_, turned(2));
     aged(std::chrono::hours(2));
     crash(cube_, turned(3));
